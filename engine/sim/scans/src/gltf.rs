@@ -2,6 +2,7 @@
 
 mod accessors;
 pub mod document;
+mod draco;
 pub mod materials;
 mod views;
 

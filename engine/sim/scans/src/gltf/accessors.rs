@@ -1,14 +1,11 @@
 //! Accessors of a glTF file: numbers in its buffers, plain, packed or sparse. Every index and every range is checked.
 
 use super::document::{Document, Node, Primitive};
-use super::views::{Accessor, Instances, Sparse, View};
-use crate::scalar::Scalar;
+use super::materials::TextureUse;
+use super::views::{Accessor, Instances, Sparse, View, is_read, scalar, scalar_of_index};
 use cosfly_frames::DVec3;
 use cosfly_town::MapError;
 use glam::{DMat4, DQuat};
-
-/// Real numbers of 4 bytes.
-const REAL: u32 = 5126;
 
 /// Most places of one mesh that stands in many.
 const MOST_PLACES: usize = 1_000_000;
@@ -18,8 +15,7 @@ impl Document {
     pub fn elements_of_shape(&self, shape: &Primitive) -> usize {
         let bytes: usize = self.data.iter().map(Vec::len).sum();
         let count = |accessor: &usize| self.accessors.get(*accessor).map_or(0, |accessor| accessor.count.min(bytes));
-        let named = |name: &str| ["POSITION", "COLOR_0"].contains(&name) || name.starts_with("TEXCOORD_");
-        let attributes = shape.attributes.iter().filter(|(name, _)| named(name.as_str()));
+        let attributes = shape.attributes.iter().filter(|(name, _)| is_read(name));
         1 + attributes.map(|(_, accessor)| count(accessor)).sum::<usize>() + shape.indices.as_ref().map_or(0, count)
     }
 
@@ -57,11 +53,7 @@ impl Document {
     ) -> Option<Vec<T>> {
         let accessor = self.accessors.get(accessor).filter(|accessor| accessor.kind == kind)?;
         let scalar = scalar(accessor.component_type)?;
-        let most = match (accessor.normalized, scalar) {
-            (true, Scalar::Signed(bytes)) => (1_u64 << (8 * bytes - 1)) as f64 - 1.0,
-            (true, Scalar::Unsigned(bytes)) => (1_u64 << (8 * bytes)) as f64 - 1.0,
-            _ => 1.0,
-        };
+        let most = accessor.greatest();
         let number = |own: &[u8], at: usize| {
             let number = scalar.read(&own[at * scalar.bytes()..], false).unwrap_or(f64::NAN) / most;
             if accessor.normalized { number.max(-1.0) } else { number }
@@ -120,8 +112,16 @@ impl Document {
         Ok((0..count).map(place).collect())
     }
 
+    /// Places of a shape's corners in a texture: from the left and from the top, 0 to 1 over the picture. None where the shape has none that can
+    /// be read.
+    pub fn texture_places(&self, shape: &Primitive, texture: &TextureUse) -> Option<Vec<[f32; 2]>> {
+        let mut places = self.texture_coordinates(*shape.attributes.get(&format!("TEXCOORD_{}", texture.set()))?)?;
+        places.iter_mut().for_each(|place| *place = texture.placed(*place));
+        Some(places)
+    }
+
     /// Texture coordinates of an accessor, of real or of packed numbers.
-    pub(super) fn texture_coordinates(&self, accessor: usize) -> Option<Vec<[f32; 2]>> {
+    fn texture_coordinates(&self, accessor: usize) -> Option<Vec<[f32; 2]>> {
         self.vectors(accessor, "VEC2", |place: [f64; 2]| place.map(|number| number as f32))
     }
 
@@ -139,22 +139,4 @@ impl Document {
         let numbers = self.elements(accessor, scalar.bytes())?;
         numbers.map(|own| scalar.read(own, false).map(|number| number as u32)).collect()
     }
-}
-
-fn scalar(component_type: u32) -> Option<Scalar> {
-    Some(match component_type {
-        5120 => Scalar::Signed(1),
-        5122 => Scalar::Signed(2),
-        REAL => Scalar::Real(4),
-        _ => return scalar_of_index(component_type),
-    })
-}
-
-fn scalar_of_index(component_type: u32) -> Option<Scalar> {
-    Some(match component_type {
-        5121 => Scalar::Unsigned(1),
-        5123 => Scalar::Unsigned(2),
-        5125 => Scalar::Unsigned(4),
-        _ => return None,
-    })
 }

@@ -1,7 +1,7 @@
 //! [`Document`]: the parts of a glTF file that shapes need. Every index and every range is checked where it is used.
 
-use super::materials::{Material, Sampler, Texture};
-use super::views::{Accessor, Instances, View};
+use super::materials::{Material, Sampler, Texture, TextureWrap};
+use super::views::{Accessor, Instances, Packed, View};
 use crate::bytes::Bytes;
 use crate::mesh::options::IN_A_PLAN;
 use base64::Engine as _;
@@ -19,13 +19,14 @@ pub const MAGIC: &[u8] = b"glTF";
 const TEXT_CHUNK: u32 = 0x4E4F_534A;
 const DATA_CHUNK: u32 = 0x004E_4942;
 /// Extensions that are read, or change nothing about shapes and base colours; those of materials are, too.
-const READ: [&str; 10] = [
+const READ: [&str; 11] = [
     "CESIUM_RTC",
     "CESIUM_primitive_outline",
     "EXT_instance_features",
     "EXT_mesh_features",
     "EXT_mesh_gpu_instancing",
     "EXT_structural_metadata",
+    "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
@@ -39,13 +40,13 @@ pub struct Document {
     scene: Option<usize>,
     scenes: Vec<Scene>,
     nodes: Vec<Node>,
-    meshes: Vec<Mesh>,
+    pub(super) meshes: Vec<Mesh>,
     pub(super) accessors: Vec<Accessor>,
     pub(super) buffer_views: Vec<View>,
     buffers: Vec<Buffer>,
     materials: Vec<Material>,
-    pub(super) textures: Vec<Texture>,
-    pub(super) samplers: Vec<Sampler>,
+    textures: Vec<Texture>,
+    samplers: Vec<Sampler>,
     images: Vec<Image>,
     extensions_required: Vec<String>,
     extensions: DocumentExtensions,
@@ -139,6 +140,14 @@ pub struct Primitive {
     pub mode: Option<u32>,
     /// Number of the material.
     pub material: Option<usize>,
+    pub(super) extensions: ShapeExtensions,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct ShapeExtensions {
+    #[serde(rename = "KHR_draco_mesh_compression")]
+    pub(super) draco: Option<Packed>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -184,6 +193,7 @@ impl Document {
         let buffers = std::mem::take(&mut document.buffers);
         let data = buffers.into_iter().enumerate().map(|(index, buffer)| buffer.bytes(index, blob));
         document.data = data.collect::<Result<_, _>>()?;
+        document.unpack()?;
         Ok(document)
     }
 
@@ -235,6 +245,25 @@ impl Document {
     /// A material.
     pub fn material(&self, index: usize) -> Option<&Material> {
         self.materials.get(index)
+    }
+
+    /// Number of the picture of a texture, and what is beyond its edges, across and down.
+    ///
+    /// # Errors
+    /// Pictures that only an extension knows.
+    pub fn picture_of(&self, texture: usize) -> Result<(usize, [TextureWrap; 2]), MapError> {
+        let own = self.textures.get(texture);
+        let Some((picture, own)) = own.and_then(|own| Some((own.source?, own))) else {
+            let by = own.and_then(|own| own.extensions.keys().next());
+            let by = by.map_or_else(
+                || "names no picture".to_owned(),
+                |by| format!("has its picture by `{by}` only, which is not read"),
+            );
+            let hint = "export the mesh with PNG or JPEG pictures: `gltf-transform ktxdecompress` makes PNG of KTX2, `gltf-transform png` of WebP";
+            return Err(MapError::new(format!("texture {texture} {by}")).hint(hint));
+        };
+        let sampler = own.sampler.and_then(|sampler| self.samplers.get(sampler));
+        Ok((picture, sampler.map_or([TextureWrap::Repeat; 2], Sampler::wraps)))
     }
 
     /// Bytes of a picture, PNG or JPEG.

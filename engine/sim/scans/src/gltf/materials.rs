@@ -1,8 +1,6 @@
 //! Materials and textures of a glTF file, as far as base colours ask for them.
 
-use super::document::{Document, Primitive};
 use cosfly_frames::real;
-use cosfly_town::MapError;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use std::collections::BTreeMap;
@@ -88,9 +86,9 @@ impl Default for TextureTransform {
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub(super) struct Texture {
-    source: Option<usize>,
-    sampler: Option<usize>,
-    extensions: BTreeMap<String, IgnoredAny>,
+    pub(super) source: Option<usize>,
+    pub(super) sampler: Option<usize>,
+    pub(super) extensions: BTreeMap<String, IgnoredAny>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -142,46 +140,29 @@ impl Material {
     }
 }
 
-impl Document {
-    /// Number of the picture of a texture, and what is beyond its edges, across and down.
-    ///
-    /// # Errors
-    /// Pictures that only an extension knows.
-    pub fn picture_of(&self, texture: usize) -> Result<(usize, [TextureWrap; 2]), MapError> {
-        let own = self.textures.get(texture);
-        let Some((picture, own)) = own.and_then(|own| Some((own.source?, own))) else {
-            let by = own.and_then(|own| own.extensions.keys().next());
-            let by = by.map_or_else(
-                || "names no picture".to_owned(),
-                |by| format!("has its picture by `{by}` only, which is not read"),
-            );
-            let hint = "export the mesh with PNG or JPEG pictures: `gltf-transform ktxdecompress` makes PNG of KTX2, `gltf-transform png` of WebP";
-            return Err(MapError::new(format!("texture {texture} {by}")).hint(hint));
-        };
-        let sampler = own.sampler.and_then(|sampler| self.samplers.get(sampler));
-        let wrap = |code: Option<u32>| match code {
+impl TextureUse {
+    /// Number of the set of places that it takes.
+    pub(super) fn set(&self) -> usize {
+        self.extensions.transform.as_ref().and_then(|it| it.tex_coord).unwrap_or(self.tex_coord)
+    }
+
+    /// A place of the set in the picture.
+    pub(super) fn placed(&self, [u, v]: [f32; 2]) -> [f32; 2] {
+        let Some(TextureTransform { offset, rotation, scale, .. }) = &self.extensions.transform else { return [u, v] };
+        // Counter-clockwise as pictures are seen: places count downwards.
+        let (sin, cos) = real::sin_cos(*rotation);
+        let (sin, cos, u, v) = (sin as f32, cos as f32, u * scale[0], v * scale[1]);
+        [offset[0] + cos * u + sin * v, offset[1] - sin * u + cos * v]
+    }
+}
+
+impl Sampler {
+    /// What is beyond the edges of a picture, across and down.
+    pub(super) fn wraps(&self) -> [TextureWrap; 2] {
+        [self.wrap_s, self.wrap_t].map(|code| match code {
             Some(33071) => TextureWrap::Clamp,
             Some(33648) => TextureWrap::Mirror,
             _ => TextureWrap::Repeat,
-        };
-        Ok((picture, sampler.map_or([TextureWrap::Repeat; 2], |own| [wrap(own.wrap_s), wrap(own.wrap_t)])))
-    }
-
-    /// Places of a shape's corners in a texture: from the left and from the top, 0 to 1 over the picture. None where the shape has none that can
-    /// be read.
-    pub fn texture_places(&self, shape: &Primitive, texture: &TextureUse) -> Option<Vec<[f32; 2]>> {
-        let transform = texture.extensions.transform.as_ref();
-        let set = transform.and_then(|it| it.tex_coord).unwrap_or(texture.tex_coord);
-        let mut places = self.texture_coordinates(*shape.attributes.get(&format!("TEXCOORD_{set}"))?)?;
-        if let Some(TextureTransform { offset, rotation, scale, .. }) = transform {
-            // Counter-clockwise as pictures are seen: places count downwards.
-            let (sin, cos) = real::sin_cos(*rotation);
-            let (sin, cos) = (sin as f32, cos as f32);
-            for place in &mut places {
-                let [u, v] = [place[0] * scale[0], place[1] * scale[1]];
-                *place = [offset[0] + cos * u + sin * v, offset[1] - sin * u + cos * v];
-            }
-        }
-        Some(places)
+        })
     }
 }

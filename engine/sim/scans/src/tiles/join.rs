@@ -309,7 +309,7 @@ mod tests {
         check_refused(&one, b"\x1f\x8b\x08\x00", "gzip");
         check_refused(&one, b"b3dm\x01\0\0\0\x1c\0\0\0\x08\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", "`0.glb`: its 28 bytes");
         check_refused(&one, b"glTF\x01\0\0\0", "glTF 1");
-        for (name, hint) in [("KHR_draco_mesh_compression", "cp"), ("KHR_texture_basisu", "ktxdecompress")] {
+        for (name, hint) in [("EXT_meshopt_compression", "cp"), ("KHR_texture_basisu", "ktxdecompress")] {
             let error = joined(&one, &text(&format!(",\"extensionsRequired\":[\"{name}\"]"))).expect_err(name);
             assert!(error.message.contains(name) && error.hints[0].contains(hint), "{error:?}");
         }

@@ -22,6 +22,7 @@ const OF_SAMPLER: [&str; 4] = ["magFilter", "minFilter", "wrapS", "wrapT"];
 /// Extensions of what is carried over, where a file has them.
 const GLOSSINESS: &str = "KHR_materials_pbrSpecularGlossiness";
 const TRANSFORM: &str = "KHR_texture_transform";
+const DRACO: &str = "KHR_draco_mesh_compression";
 
 /// A file as it grows.
 #[derive(Default)]
@@ -117,7 +118,8 @@ impl Joined {
         self.lists[3].extend(views);
         self.lists[7].extend(list(&document, "samplers").iter().map(|sampler| kept(sampler, &OF_SAMPLER)));
         let used = list(&document, "extensionsUsed").iter().filter_map(Value::as_str);
-        self.used.extend([GLOSSINESS, TRANSFORM].into_iter().filter(|name| used.clone().any(|own| own == *name)));
+        self.used
+            .extend([GLOSSINESS, TRANSFORM, DRACO].into_iter().filter(|name| used.clone().any(|own| own == *name)));
         let roots = part.roots()?;
         let matrix = place(center.unwrap_or_default());
         if !matrix.is_finite() {
@@ -143,11 +145,13 @@ impl Joined {
     /// The file.
     pub fn into_glb(mut self) -> Vec<u8> {
         let used: Vec<&str> =
-            ["EXT_mesh_gpu_instancing", "KHR_mesh_quantization"].into_iter().chain(self.used).collect();
+            ["EXT_mesh_gpu_instancing", "KHR_mesh_quantization"].into_iter().chain(self.used.iter().copied()).collect();
+        let packed = self.used.contains(DRACO).then_some(DRACO);
+        let required: Vec<&str> = ["KHR_mesh_quantization"].into_iter().chain(packed).collect();
         let mut document = json!({
             "asset": { "version": "2.0", "generator": "cosfly" }, "scene": 0, "scenes": [{ "nodes": self.roots }],
             "extensionsUsed": used,
-            "extensionsRequired": ["KHR_mesh_quantization"], "buffers": [{ "byteLength": self.data.len() }],
+            "extensionsRequired": required, "buffers": [{ "byteLength": self.data.len() }],
         });
         for (name, list) in LISTS.into_iter().zip(std::mem::take(&mut self.lists)).filter(|(_, list)| !list.is_empty())
         {
@@ -240,6 +244,10 @@ impl Part<'_> {
             own["attributes"] = self.attributes(&shape["attributes"])?.into();
             put(&mut own, "indices", self.number(&shape["indices"], 2)?);
             put(&mut own, "material", self.number(&shape["material"], 4)?);
+            let packed = &shape["extensions"][DRACO];
+            if let Some(view) = self.number(&packed["bufferView"], 3)? {
+                own["extensions"] = json!({ DRACO: { "bufferView": view, "attributes": packed["attributes"] } });
+            }
             Ok(own)
         };
         let mut own = kept(mesh, &["name"]);
