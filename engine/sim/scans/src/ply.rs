@@ -47,6 +47,14 @@ impl MapFormat for Ply {
 fn town(bytes: &[u8], options: &CloudOptions) -> Result<(Town, Vec<String>), MapError> {
     let (text, data) = split(bytes)?;
     let head = Head::read(&text)?;
+    let is_of_splats =
+        ["f_dc_0", "scale_0", "rot_0"].iter().all(|name| head.properties.iter().any(|own| own.0 == *name));
+    if is_of_splats && !options.splats_as_points {
+        let error = MapError::new("the file holds Gaussian splats: their middles are no measured points");
+        return Err(error
+            .hint("name a mesh or a cloud of the place as the map, and this file in stage `render`: `splats = { source = ... }`")
+            .hint("`options.splats_as_points = true` takes the middles as points; the dataset's card says so"));
+    }
     let columns = Columns::find(head.properties.iter().map(|(name, _)| name.as_str()))?;
     let unit_m = options.unit_m.unwrap_or(1.0);
     let mut cloud = CloudBuilder::default();
@@ -64,7 +72,12 @@ fn town(bytes: &[u8], options: &CloudOptions) -> Result<(Town, Vec<String>), Map
         let message = format!("the file is a mesh: its vertices, {spacing_m:.1} m apart, are no cloud of points");
         return Err(MapError::new(message).hint("export the mesh as GLB or OBJ"));
     }
-    let (town, mut warnings) = town_of(cloud, options)?;
+    let (mut town, mut warnings) = town_of(cloud, options)?;
+    if is_of_splats {
+        let note = "the geometry is that of the middles of Gaussian splats, which are no measured points";
+        town.synthetic.notes.push(note.to_owned());
+        warnings.push(format!("{note}: clearances are not those of the place"));
+    }
     if head.has_faces {
         warnings.push("the file has faces: only its vertices are read, as points".to_owned());
     }

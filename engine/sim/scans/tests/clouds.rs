@@ -140,6 +140,21 @@ fn points_start(file: &[u8]) -> usize {
     u32::from_le_bytes(*file[96..].first_chunk().unwrap()) as usize
 }
 
+#[test]
+fn splats_are_a_map_only_where_the_user_says_so_and_the_card_does() {
+    let text = String::from_utf8(ply(&scene(), "ascii")).unwrap();
+    let (head, rows) = text.split_once("end_header\n").unwrap();
+    let rows: String = rows.lines().map(|row| format!("{row} 0 0 0\n")).collect();
+    let further = "property float f_dc_0\nproperty float scale_0\nproperty float rot_0\n";
+    let splats = format!("{head}{further}end_header\n{rows}");
+    let refused = read::<Ply>(splats.as_bytes(), &CloudOptions::default()).unwrap_err();
+    assert!(refused.message.contains("Gaussian splats") && refused.hints[0].contains("splats = {"), "{refused}");
+    let options = CloudOptions { splats_as_points: true, ..CloudOptions::default() };
+    let (town, warnings) = Ply::read(splats.as_bytes(), &options).unwrap();
+    assert!(town.synthetic.notes.iter().any(|note| note.contains("Gaussian splats")), "{:?}", town.synthetic);
+    assert!(warnings.iter().any(|warning| warning.contains("Gaussian splats")), "{warnings:?}");
+}
+
 fn check_ply_with_gaps(bytes: &[u8]) {
     let (_, warnings) = Ply::read(bytes, &CloudOptions::default()).unwrap();
     assert!(warnings.iter().any(|warning| warning.contains("without finite coordinates")), "{warnings:?}");

@@ -17,4 +17,7 @@ pub struct CloudOptions {
     /// Length of the file's unit, metres: 0.3048 for feet. 0.000001 to 1000. Default: what the file says, else 1.
     #[schemars(range(min = 0.000001, max = 1000.0))]
     pub unit_m: Option<f64>,
+    /// Whether the middles of Gaussian splats (PLY) count as points. Their surfaces are thick, and glass and sky have some, too. Default: refused.
+    #[serde(skip_serializing_if = "core::ops::Not::not")]
+    pub splats_as_points: bool,
 }
