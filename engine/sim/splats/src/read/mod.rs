@@ -31,6 +31,7 @@ pub fn read(bytes: &[u8]) -> Result<SplatFile, SplatError> {
         [b'p', b'l', b'y', ..] if ply::is_of_points(bytes) => (points::read(bytes)?, "PLY of points"),
         [b'p', b'l', b'y', ..] => (ply::read(bytes)?, "PLY"),
         [0x1f, 0x8b, ..] => (packed::read(bytes)?, "SPZ"),
+        _ if bytes.starts_with(&packed::MAGIC) => (packed::read_columns(bytes)?, "SPZ"),
         _ => (small::read(bytes)?, "splat"),
     };
     if cloud.is_empty() {

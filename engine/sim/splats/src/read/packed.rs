@@ -1,4 +1,4 @@
-//! `.spz`, versions 2 and 3: columns of small numbers, packed with gzip.
+//! `.spz`, versions 2 to 4: columns of small numbers, packed together with gzip, or each with Zstandard.
 
 use super::{check_count, exponential};
 use crate::cloud::SplatCloud;
@@ -8,7 +8,8 @@ use flate2::bufread::GzDecoder;
 use std::io::Read;
 
 const HEAD: usize = 16;
-const MAGIC: [u8; 4] = *b"NGSP";
+/// The first bytes of a file of version 4; those of version 2 and 3 once they are unpacked.
+pub(super) const MAGIC: [u8; 4] = *b"NGSP";
 /// Files pack to a third or so: what promises to unpack to more than this many times its size is no scene.
 const MOST_UNPACKED: usize = 200;
 /// Factor of colours.
@@ -31,8 +32,8 @@ impl Head {
             return Err(SplatError::new(message, "give a `.spz` file, or unpack the file first"));
         }
         let head = Self { version: word(4), count: word(8) as usize, degree: own[12].into(), fraction: own[13].into() };
-        if !matches!(head.version, 2 | 3) {
-            let message = format!("the file is SPZ of version {}; versions 2 and 3 are read", head.version);
+        if !matches!(head.version, 2..=4) {
+            let message = format!("the file is SPZ of version {}; versions 2 to 4 are read", head.version);
             return Err(SplatError::new(message, "export the scene as `.ply`"));
         }
         if head.degree > 3 || head.fraction > 24 {
@@ -56,27 +57,59 @@ impl Head {
         (self.degree + 1) * (self.degree + 1) - 1
     }
 
+    /// Bytes of all splats, unless the file is too short for them.
+    fn expected(&self, file: &[u8]) -> Result<usize, SplatError> {
+        let expected = self.count * self.splat_bytes();
+        if expected / MOST_UNPACKED <= file.len() {
+            return Ok(expected);
+        }
+        let message = format!("{} bytes cannot hold the {} splats that the file promises", file.len(), self.count);
+        Err(SplatError::cut_off(message))
+    }
+
     /// Bytes of a splat in all columns.
     fn splat_bytes(&self) -> usize {
         9 + 1 + 3 + 3 + self.turn_bytes() + 3 * self.further()
     }
 }
 
+/// Reads a file of version 2 or 3.
 pub(super) fn read(bytes: &[u8]) -> Result<SplatCloud, SplatError> {
     let mut unpacked = GzDecoder::new(bytes);
     let mut head = [0; HEAD];
     unpacked.read_exact(&mut head).map_err(|_| SplatError::cut_off("the file cannot be unpacked with gzip"))?;
     let head = Head::read(&head)?;
-    let expected = head.count * head.splat_bytes();
-    if expected / MOST_UNPACKED > bytes.len() {
-        let message = format!("{} bytes cannot hold the {} splats that the file promises", bytes.len(), head.count);
-        return Err(SplatError::cut_off(message));
-    }
+    let expected = head.expected(bytes)?;
     let mut data = Vec::new();
     // What goes on behind the last splat is not read.
     let result = unpacked.take(expected as u64).read_to_end(&mut data);
     if result.is_err() || data.len() < expected {
         return Err(SplatError::cut_off(format!("the file ends before the last of {} splats", head.count)));
+    }
+    Ok(cloud(&head, &data))
+}
+
+/// Reads a file of version 4: a head, a list of the lengths of its columns, and each column packed by itself.
+pub(super) fn read_columns(bytes: &[u8]) -> Result<SplatCloud, SplatError> {
+    let cut = || SplatError::cut_off("the file ends before the last of its columns");
+    let head = Head::read(bytes.first_chunk().ok_or_else(cut)?)?;
+    if head.version < 4 {
+        let message = format!("a file of version {} is packed with gzip, and this one is not", head.version);
+        return Err(SplatError::new(message, "fetch or export it again"));
+    }
+    let expected = head.expected(bytes)?;
+    let number = |at: usize| Some(u64::from_le_bytes(*bytes.get(at..)?.first_chunk()?) as usize);
+    let list = u32::from_le_bytes(*bytes[HEAD..].first_chunk().ok_or_else(cut)?) as usize;
+    let widths = [9, 1, 3, 3, 4, 3 * head.further()].into_iter().filter(|width| *width > 0);
+    let mut at = list.saturating_add(16 * widths.clone().count());
+    let mut data = Vec::with_capacity(expected);
+    for (column, width) in widths.enumerate() {
+        let (packed, unpacked) = (list + 16 * column, width * head.count);
+        let length = number(packed).filter(|_| number(packed + 8) == Some(unpacked)).ok_or_else(cut)?;
+        let own = bytes.get(at..).and_then(|rest| rest.get(..length)).ok_or_else(cut)?;
+        let own = zstd::bulk::decompress(own, unpacked).ok().filter(|own| own.len() == unpacked).ok_or_else(cut)?;
+        data.extend(own);
+        at += length;
     }
     Ok(cloud(&head, &data))
 }
@@ -158,6 +191,40 @@ mod tests {
     }
 
     #[test]
+    fn columns_of_version_4_are_those_of_version_3() {
+        let columns: [&[u8]; 6] =
+            [&[0, 24, 0, 0, 0xe0, 0xff, 0, 4, 0], &[204], &[128, 90, 128], &[123; 3], &[7, 1, 0, 0xc0], &[131; 9]];
+        let mut file = MAGIC.to_vec();
+        file.extend([4_u32, 1].iter().flat_map(|number| number.to_le_bytes()));
+        // Degree 1, 12 bits behind the point; an extension of 8 bytes before the list.
+        file.extend([1, 12, 2, 6, 40].iter().chain(&[0; 23]));
+        let chunks = columns.map(|own| zstd::bulk::compress(own, 3).expect("memory"));
+        for (own, chunk) in columns.iter().zip(&chunks) {
+            file.extend([chunk.len() as u64, own.len() as u64].iter().flat_map(|number| number.to_le_bytes()));
+        }
+        file.extend(chunks.concat());
+        let own = read_columns(&file).expect("a cloud");
+        let former = read(&packed(3, 1, 1, &columns.concat())).expect("a cloud");
+        assert_eq!(format!("{own:?}"), format!("{former:?}"));
+        for length in 0..file.len() {
+            let error = read_columns(&file[..length]).expect_err("cut");
+            assert!(error.message.contains("ends before"), "{length}: {}", error.message);
+        }
+        let promised = |at: usize, to: u8| {
+            let mut file = file.clone();
+            file[at] = to;
+            read_columns(&file).map(|_| ()).expect_err("refused").message
+        };
+        assert!(promised(8, 2).contains("ends before") && promised(11, 1).contains("at most"));
+        assert!(
+            promised(10, 9).contains("cannot hold")
+                && promised(4, 3).contains("gzip")
+                && promised(4, 5).contains("version 5")
+        );
+        assert!(promised(19, 255).contains("ends before"));
+    }
+
+    #[test]
     fn both_versions_are_read() {
         // 1.5, -2 and 0.25 in 4096ths; opaque enough; grey; a tenth of a metre; no turn.
         let mut data = vec![0, 24, 0, 0, 0xe0, 0xff, 0, 4, 0];
@@ -178,7 +245,7 @@ mod tests {
         assert!(refused(&packed(3, u32::MAX, 3, &[])).contains("at most"));
         assert!(refused(&packed(3, 9_000_000, 3, &[])).contains("cannot hold"));
         assert!(refused(&packed(3, 10, 3, &[0; 9])).contains("ends before"));
-        assert!(refused(&packed(4, 1, 0, &[])).contains("version 4"));
+        assert!(refused(&packed(5, 1, 0, &[])).contains("version 5"));
         assert!(refused(&packed(2, 1, 7, &[])).contains("degree 7"));
         assert!(refused(&[0x1f, 0x8b, 1]).contains("gzip"));
     }
