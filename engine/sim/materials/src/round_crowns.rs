@@ -11,7 +11,8 @@ use std::collections::BTreeMap;
 
 /// Boxes overlap by less in height where they lie on each other, metres.
 const OVERLAP_M: f64 = 1e-3;
-/// Longer boxes of crowns are rows of trees, times their width; longer bushes are hedges, which stay.
+/// Length of each tree of a row, in widths of the row: crowns three times as long as wide are two trees, such bushes are
+/// hedges, which stay.
 const ROW: f64 = 2.0;
 /// Most trees of a row, and how far each reaches over its share.
 const MOST_IN_ROW: f64 = 8.0;

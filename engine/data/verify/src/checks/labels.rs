@@ -47,6 +47,8 @@ fn reason(flight: &PlacedFlight, frame: &PlacedFrame, gap: f64) -> String {
         "the body is cut off by the picture's edge".into()
     } else if !flight.lens.is_none() {
         "the lens bends the picture, rays are straight".into()
+    } else if gap < 0.0 && frame.occluder_instance != 0 {
+        "rays meet boxes, within which roofs and crowns are drawn".into()
     } else {
         "no reason is known".into()
     }
