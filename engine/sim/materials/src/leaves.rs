@@ -343,3 +343,30 @@ fn facing(place: Vec3, normal: Vec3) -> (f32, f32) {
     let (up, ahead) = (one_if(z > most(x, y)), one_if(x > y));
     (lerp(lerp(place.x, place.y, ahead), place.x, up), lerp(place.z, place.y, up))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pattern::noise_texture;
+
+    #[test]
+    fn leaves_have_no_streaks_on_any_side() {
+        let noise = noise_texture(5);
+        let crown = OnMap { middle: Vec3::splat(0.0), tint: Vec3::splat(0.1), through: 1.0, shift: 3.0 };
+        let openness = |world: Vec3, normal: Vec3| {
+            let point = SurfacePoint { world, normal, footprint_m: 0.02, footprints_m: [0.02; 2] };
+            look(&point, &crown, &noise).0.openness
+        };
+        // Mean change over a step along a face.
+        let change = |normal: Vec3, step: Vec3, across: Vec3| {
+            let places = (0..2000).map(|k| across * (0.11 * (k % 50) as f32) + step * (1.7 * (k / 50) as f32));
+            let change = places.map(|place| (openness(place + step, normal) - openness(place, normal)).abs());
+            change.sum::<f32>() / 2000.0
+        };
+        let (x, y, z) = (Vec3::new(0.2, 0.0, 0.0), Vec3::new(0.0, 0.2, 0.0), Vec3::new(0.0, 0.0, 0.2));
+        for [out, step, across] in [[x, y, z], [y, x, z], [z, x, y]] {
+            let [one, other] = [change(out * 5.0, step, across), change(out * 5.0, across, step)];
+            assert!(one < 1.7 * other && other < 1.7 * one, "{one} along, {other} across");
+        }
+    }
+}

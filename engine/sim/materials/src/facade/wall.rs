@@ -205,6 +205,15 @@ mod tests {
     use cosfly_frames::DVec3;
 
     #[test]
+    fn cloth_behind_walls_of_glass_is_dark() {
+        for seed in 0..300 {
+            let facade = Facade::new(seed, 1, 0, [30.0, 40.0], 40.0);
+            let is_glass = facade.window[1] - facade.window[0] > 0.8;
+            assert_eq!(is_glass, facade.clear < 0.5, "{facade:?}");
+        }
+    }
+
+    #[test]
     fn boxes_of_a_building_have_one_wall_and_doors_in_the_street_alone() {
         let part = |low: DVec3, high: DVec3, object_id| Obstacle {
             shape: OrientedBox::from_corners(low, high),
