@@ -1,0 +1,117 @@
+"""People found and followed in real footage by networks that have seen cosfly's pictures alone.
+
+    python recipes/training/footage/run.py --out out/footage --people FRAMES BOXES
+
+Makes the pictures of `data.toml`, trains a detector of people and a tracker of boxes on them, and scores both on pictures of a town that
+they have not seen and on sequences of yours: a folder of frames, and a text file with one box a line, `left,top,width,height` in pixels,
+as UAV123, OTB and LaSOT have them. Writes `report.md`, `detector.pt` and `tracker.pt`. The book's page "Real footage" says more.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import json
+import subprocess
+from pathlib import Path
+from typing import Dict
+
+HERE = Path(__file__).resolve().parent
+# What `--without` leaves out of the recipe, one at a time.
+PARTS = {
+    "optics": ["stages.frames.optics.preset=ideal"],
+    "weathers": ['stages.frames.weathers=["ClearNoon"]'],
+    "parked": ["stages.street.vehicles.parked_share=0.0"],
+    "crowd": ["stages.street.people.count=0"],
+    "look": ["stages.frames.look=simple"],
+    "lenses": ["stages.frames.fov_range_deg=[79.9, 80.0]"],
+    "heights": ["stages.low.view={}"],
+}
+
+
+def arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    add = parser.add_argument
+    add("--out", type=Path, default=Path("out/footage"), help="folder of data, networks and report (default: out/footage)")
+    add("--cosfly", default="cosfly", help="the program (default: cosfly)")
+    sequence = {"nargs": "+", "action": "append", "default": [], "metavar": "PATH"}
+    add("--people", **sequence, help="FRAMES BOXES [FIRST]: a sequence that follows a person; FIRST is the picture of the first line, from 1")
+    add("--others", **sequence, help="the same for a sequence that follows anything else: for the tracker alone")
+    add("--without", choices=sorted(PARTS), help="leave a part of the recipe out, to see what it is good for")
+    add("--set", action="append", default=[], metavar="KEY=VALUE", help="change the recipe, as in `cosfly run`")
+    add("--steps", type=int, default=3000, help="steps of the detector, twice those of the tracker, which begins with its weights (default: 3000)")
+    add("--per-frame", type=int, default=3, help="bodies around which squares are cut from each picture (default: 3)")
+    add("--every", type=int, default=4, help="score the detector on every n-th picture of a sequence (default: 4)")
+    add("--seed", type=int, default=1)
+    add("--threads", type=int, default=2, help="threads of torch: other numbers give other last bits (default: 2)")
+    options = parser.parse_args()
+    for sequence in options.people + options.others:
+        if len(sequence) not in (2, 3) or (len(sequence) == 3 and not sequence[2].isdigit()):
+            parser.error(f"a sequence is FRAMES BOXES [FIRST], not {' '.join(sequence)}")
+    return options
+
+
+def data(options: argparse.Namespace, out: Path) -> Path:
+    sets = [part for pair in [*(PARTS[options.without] if options.without else []), *options.set] for part in ("--set", pair)]
+    command = [options.cosfly, "run", str(HERE / "data.toml"), "--out", str(out / "data"), "--store", str(options.out / "store"), *sets]
+    if subprocess.run(command).returncode:
+        raise SystemExit("footage: cosfly failed; its words are above")
+    return out / "data"
+
+
+def networks_of(options: argparse.Namespace, out: Path, dataset: Path) -> Dict[str, "object"]:
+    """The networks, trained, or read where the same settings trained them on the same pictures."""
+    import cosfly
+    import networks
+    import torch
+    from crops import squares_of
+
+    pictures = hashlib.sha256((dataset / "SHA256SUMS").read_bytes()).hexdigest()
+    asked = {name: getattr(options, name) for name in ("steps", "per_frame", "seed", "threads")}
+    made = json.dumps({**asked, "pictures": pictures})
+    kinds, squares, found = {"detector": networks.Detector, "tracker": networks.Tracker}, None, {}
+    for name, kind in kinds.items():
+        file = out / f"{name}.pt"
+        torch.manual_seed(options.seed)
+        network = kind()
+        kept = torch.load(file) if file.exists() else {}
+        if kept.get("made") == made:
+            network.load_state_dict(kept["weights"])
+            network.eval()
+        else:
+            squares = squares or squares_of(cosfly.Dataset(dataset, split="train", channels=("rgb",)), options.per_frame, options.seed)
+            if name == "tracker":
+                network.trunk.load_state_dict(found["detector"].trunk.state_dict())
+            print(f"{name}: {sum(it.numel() for it in network.parameters()):,} weights, {len(squares.bodies):,} squares", flush=True)
+            lesson = networks.lesson_of_detector if name == "detector" else networks.LessonOfTracker(squares)
+            steps = options.steps if name == "detector" else max(1, options.steps // 2)
+            networks.train(network, lesson, squares, steps, options.seed, lambda line: print(f"{name}: {line}", flush=True))
+            torch.save({"made": made, "weights": network.state_dict()}, file)
+        found[name] = network
+    return found
+
+
+def main() -> None:
+    options = arguments()
+    try:
+        import cosfly  # noqa: F401
+        import torch
+    except ImportError as missing:
+        raise SystemExit(f"footage: {missing}; the book's page `Real footage` says what to install") from None
+    torch.set_num_threads(options.threads)
+    import scores
+
+    people, others = ([scores.Sequence(*it) for it in of] for of in (options.people, options.others))
+    out = options.out / (f"without_{options.without}" if options.without else "all")
+    out.mkdir(parents=True, exist_ok=True)
+    dataset = data(options, out)
+    trained = networks_of(options, out, dataset)
+    report = scores.report(trained["detector"], trained["tracker"], dataset, people, others, options.every)
+    (out / "report.md").write_text(report)
+    print(f"\n{report}\n{out / 'report.md'}")
+    if not people:
+        print("footage: no real footage was named; `--people FRAMES BOXES` scores the networks on yours")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,256 @@
+"""Scores of the detector and the tracker on sequences of frames with one box each, with 95 % intervals over stretches."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Callable, Dict, List, NamedTuple, Optional
+
+import numpy as np
+import torch
+from crops import SIDE, as_input, cut, seen_in
+from networks import CELL, TEMPLATE, Detector, Tracker, distinct, overlaps, peaks
+from PIL import Image
+
+RIGHT, SURE, FAINT = 0.4, 0.5, 0.03  # overlap of a right box; certainty of a sure one; certainty below which nothing is a box
+FALSE_A_SQUARE = 0.05
+LENGTHS = 5  # sides of squares, in longer sides of the box
+STRETCHES, DRAWN = 10, 1000
+NEAR_PX = 20
+LEAST_PX = 14
+Begin = Callable[[Image.Image, np.ndarray], Any]  # a tracker in a sequence, from its first picture and box on
+
+
+class Sequence:
+    """Frames in order of their names, and the box of each: NaN where the target is not to be seen."""
+
+    def __init__(self, frames: str, boxes: str, first: str = "1") -> None:
+        folder, file = Path(frames), Path(boxes)
+        if not folder.is_dir() or not file.is_file():
+            missing = file if folder.is_dir() else folder
+            raise SystemExit(f"footage: {missing} is not there; a sequence is a folder of frames and a text file of boxes")
+        self.name, self.boxes = file.stem, []
+        for number, line in enumerate(file.read_text().splitlines(), 1):
+            try:
+                left, top, wide, high = map(float, line.replace(",", " ").split())
+            except ValueError:
+                told = f"footage: {file}:{number}: `{line[:60]}` is no box"
+                raise SystemExit(f"{told}; write left,top,width,height in pixels, NaN where there is none") from None
+            self.boxes.append([left, top, left + wide, top + high] if wide > 0 and high > 0 else [np.nan] * 4)
+        pictures = sorted(it for it in folder.iterdir() if it.suffix.lower() in (".jpg", ".jpeg", ".png"))
+        self.pictures = pictures[int(first) - 1 :][: len(self.boxes)]
+        if len(self.pictures) < len(self.boxes) or not self.boxes:
+            raise SystemExit(f"footage: {file} has {len(self.boxes)} boxes, and {folder} {len(self.pictures)} frames for them")
+        self.boxes = np.array(self.boxes)
+        if np.isnan(self.boxes[0]).any():
+            raise SystemExit(f"footage: {file}:1: the first line has no box to follow")
+
+    def picture(self, number: int) -> Image.Image:
+        return Image.open(self.pictures[number]).convert("RGB")
+
+    def __len__(self) -> int:
+        return len(self.boxes)
+
+
+class Interval(NamedTuple):
+    value: float
+    low: float
+    high: float
+
+    def __str__(self) -> str:
+        return f"{self.value:.2f} [{self.low:.2f}, {self.high:.2f}]"
+
+
+def interval(of: Callable[[np.ndarray], float], stretches: np.ndarray) -> Interval:
+    """`of` rows, and its 2.5 and 97.5 percentiles over stretches drawn anew."""
+    draws, names = np.random.default_rng(0), np.unique(stretches)
+    rows = [np.flatnonzero(stretches == it) for it in names]
+    drawn = [of(np.concatenate([rows[it] for it in draws.integers(len(rows), size=len(rows))])) for _ in range(DRAWN)]
+    return Interval(of(np.arange(len(stretches))), *np.percentile(drawn, [2.5, 97.5]))
+
+
+@torch.no_grad()
+def people_in(detector: Detector, square: np.ndarray) -> np.ndarray:
+    return distinct(peaks(detector(as_input(square)[None])[0], FAINT))
+
+
+def inside(box: np.ndarray, side: float, picture: Image.Image) -> tuple:
+    """Middle of a square around the box, moved inside the picture where the square fits."""
+    middle = (box[:2] + box[2:]) / 2
+    return tuple(np.clip(it, side / 2, length - side / 2) if side < length else length / 2 for it, length in zip(middle, picture.size))
+
+
+def in_squares(
+    detector: Detector, pictures: List[Image.Image], boxes: np.ndarray, stretches: np.ndarray, others: Optional[List[np.ndarray]] = None
+) -> Dict[str, Interval]:
+    """A square of five heights around each box, scaled to 160 pixels: whether the person is found, and what else is that is none of the others."""
+    rows = []
+    for picture, box, people in zip(pictures, boxes, others or [np.zeros((0, 4))] * len(boxes)):
+        side = LENGTHS * (box[3] - box[1])
+        square, (left, top, scale) = cut(picture, inside(box, side, picture), side, SIDE)
+        found = people_in(detector, square)
+        inside_square = lambda box: (box - [left, top, left, top]) * scale
+        is_right = overlaps(inside_square(box), found[:, 1:]) > RIGHT
+        is_other = np.array([(overlaps(it, inside_square(people)) > 0.2).any() for it in found[:, 1:]], bool)
+        found, is_right = found[is_right | ~is_other], is_right[is_right | ~is_other]
+        rows.append((found[:, 0], is_right))
+    best = np.array([bool(len(it[0])) and bool(it[1][0]) for it in rows])
+    sure = np.array([it[0][it[1]].max(initial=0.0) for it in rows])
+    false = [it[0][~it[1]] for it in rows]
+    wrong = np.array([(it > SURE).sum() for it in false])
+
+    def at_few(chosen: np.ndarray) -> float:
+        every = np.sort(np.concatenate([false[it] for it in chosen]))[::-1]
+        allowed = int(FALSE_A_SQUARE * len(chosen))
+        return float((sure[chosen] > (every[allowed] if len(every) > allowed else 0.0)).mean())
+
+    return {
+        "best box right": interval(lambda chosen: best[chosen].mean(), stretches),
+        f"recall at {SURE}": interval(lambda chosen: (sure[chosen] > SURE).mean(), stretches),
+        f"false boxes a square at {SURE}": interval(lambda chosen: wrong[chosen].mean(), stretches),
+        f"recall at {FALSE_A_SQUARE} false boxes a square": interval(at_few, stretches),
+    }
+
+
+@torch.no_grad()
+def in_whole(detector: Detector, picture: Image.Image) -> np.ndarray:
+    """People in a whole picture, at six sizes."""
+    found = []
+    for scale in 2.0 ** -np.arange(0, 3, 0.5):
+        size = [max(SIDE // 4, round(length * scale) // 16 * 16) for length in picture.size]
+        seen = peaks(detector(as_input(np.asarray(picture.resize(size, Image.Resampling.BILINEAR)))[None])[0], FAINT)
+        found.append(seen * [1, *np.tile(np.divide(picture.size, size), 2)])
+    return distinct(np.concatenate(found))
+
+
+def average_precision(found: List[np.ndarray], boxes: List[np.ndarray], overlap: float) -> Callable[[np.ndarray], float]:
+    """Area below precision over recall of chosen frames, each person found once."""
+    marked = []
+    for of_frame, people in zip(found, boxes):
+        is_free, right = np.ones(len(people), bool), []
+        for row in of_frame:
+            common = np.where(is_free, overlaps(row[1:], people), 0) if len(people) else np.zeros(1)
+            right.append(common.max() >= overlap)
+            if right[-1]:
+                is_free[common.argmax()] = False
+        marked.append((of_frame[:, 0], np.array(right, bool)))
+
+    def of(chosen: np.ndarray) -> float:
+        certainty, right = (np.concatenate([marked[it][place] for it in chosen]) for place in (0, 1))
+        right = right[np.argsort(-certainty, kind="stable")].astype(float)
+        precision = right.cumsum() / np.arange(1, len(right) + 1)
+        best = np.maximum.accumulate(precision[::-1])[::-1]
+        return float((best * right).sum() / max(1, sum(len(boxes[it]) for it in chosen)))
+
+    return of
+
+
+class Follower:
+    """The tracker in a sequence: from the first box on, a box for each picture."""
+
+    def __init__(self, tracker: Tracker, picture: Image.Image, box: np.ndarray) -> None:
+        self.tracker, self.middle, self.size = tracker, (box[:2] + box[2:]) / 2, box[2:] - box[:2]
+        self.kernels = self._kernels(picture)
+        cells = (np.arange(SIDE // CELL) + 0.5) / (SIDE // CELL)
+        self.window = np.outer(np.sin(np.pi * cells), np.sin(np.pi * cells))
+
+    @torch.no_grad()
+    def _kernels(self, picture: Image.Image) -> torch.Tensor:
+        square, _ = cut(picture, tuple(self.middle), self.size.max() * LENGTHS * TEMPLATE / SIDE, TEMPLATE)
+        return self.tracker.kernels(as_input(square)[None])
+
+    @torch.no_grad()
+    def update(self, picture: Image.Image) -> np.ndarray:
+        square, (left, top, scale) = cut(picture, tuple(self.middle), self.size.max() * LENGTHS, SIDE)
+        found = peaks(self.tracker(self.kernels, as_input(square)[None])[0], FAINT)
+        if len(found):
+            middles, sizes = (found[:, 1:3] + found[:, 3:5]) / 2, found[:, 3:5] - found[:, 1:3]
+            cells = np.clip((middles / CELL).astype(int), 0, SIDE // CELL - 1)
+            change = np.abs(np.log(np.maximum(sizes, 1) / (self.size * scale))).sum(axis=1)
+            likely = found[:, 0] * np.exp(-0.3 * change) * (0.65 + 0.35 * self.window[cells[:, 1], cells[:, 0]])
+            best = likely.argmax()
+            if found[best, 0] > 0.1:
+                self.middle = middles[best] / scale + [left, top]
+                share = 0.4 * found[best, 0]
+                self.size = np.maximum(4, (1 - share) * self.size + share * sizes[best] / scale)
+        return np.concatenate([self.middle - self.size / 2, self.middle + self.size / 2])
+
+
+class OfOpenCv:
+    def __init__(self, make: Callable[[], Any], picture: Image.Image, box: np.ndarray) -> None:
+        self.tracker, self.box = make(), box
+        self.tracker.init(np.asarray(picture)[:, :, ::-1].copy(), tuple(int(round(it)) for it in (*box[:2], *(box[2:] - box[:2]))))
+
+    def update(self, picture: Image.Image) -> np.ndarray:
+        is_found, box = self.tracker.update(np.asarray(picture)[:, :, ::-1].copy())
+        if is_found:
+            self.box = np.array([box[0], box[1], box[0] + box[2], box[1] + box[3]], float)
+        return self.box
+
+
+def trackers(tracker: Tracker) -> Dict[str, Begin]:
+    found: Dict[str, Begin] = {"trained on cosfly": lambda picture, box: Follower(tracker, picture, box)}
+    try:
+        import cv2
+    except ImportError:
+        return found
+    for name in ("CSRT", "KCF"):
+        if hasattr(cv2, f"Tracker{name}_create"):
+            make = getattr(cv2, f"Tracker{name}_create")
+            found[f"{name} of OpenCV {cv2.__version__}"] = lambda picture, box, make=make: OfOpenCv(make, picture, box)
+    return found
+
+
+def followed(sequence: Sequence, begin: Begin) -> Dict[str, Interval]:
+    """Success (area below the share of frames over the overlap) and precision (middle within 20 pixels), as OTB and UAV123 define them."""
+    follower, told = begin(sequence.picture(0), sequence.boxes[0]), [sequence.boxes[0]]
+    for number in range(1, len(sequence)):
+        told.append(follower.update(sequence.picture(number)))
+    shown = ~np.isnan(sequence.boxes).any(axis=1)
+    true, told = sequence.boxes[shown], np.array(told)[shown]
+    common = np.array([overlaps(box, other[None])[0] for box, other in zip(true, told)])
+    away = np.linalg.norm((true[:, :2] + true[:, 2:] - told[:, :2] - told[:, 2:]) / 2, axis=1)
+    success = (common[:, None] > np.linspace(0, 1, 21)).mean(axis=1)
+    stretches = STRETCHES * np.arange(len(true)) // len(true)
+    near = away <= NEAR_PX
+    return {"success": interval(lambda it: success[it].mean(), stretches), "precision": interval(lambda it: near[it].mean(), stretches)}
+
+
+def report(detector: Detector, tracker: Tracker, dataset: Path, people: List[Sequence], others: List[Sequence], every: int) -> str:
+    sets = {"own pictures, a town not seen in training": own_pictures(detector, dataset)}
+    for sequence in people:
+        numbers = [it for it in range(0, len(sequence), every) if sequence.boxes[it, 3] - sequence.boxes[it, 1] >= LEAST_PX]
+        pictures, boxes = [sequence.picture(it) for it in numbers], sequence.boxes[numbers]
+        stretches = STRETCHES * np.array(numbers) // len(sequence)
+        row = in_squares(detector, pictures, boxes, stretches)
+        found = [in_whole(detector, picture) for picture in pictures]
+        for overlap in (RIGHT, 0.5):
+            precision = average_precision(found, [box[None] for box in boxes], overlap)
+            row[f"average precision in whole frames, overlap {overlap}"] = interval(precision, stretches)
+        sets[f"{sequence.name}, {len(numbers)} frames"] = row
+    lines = ["# Networks trained on cosfly alone", "", "## Detector of people", ""]
+    columns = list(dict.fromkeys(name for row in sets.values() for name in row))
+    lines += ["| | " + " | ".join(sets) + " |", "|---" * (len(sets) + 1) + "|"]
+    lines += [f"| {name} | " + " | ".join(str(row.get(name, "")) for row in sets.values()) + " |" for name in columns]
+    if people or others:
+        lines += ["", "## Trackers", "", f"| sequence | tracker | success | precision at {NEAR_PX} px |", "|---|---|---|---|"]
+        for sequence in people + others:
+            for name, begin in trackers(tracker).items():
+                lines.append(f"| {sequence.name} | {name} | " + " | ".join(map(str, followed(sequence, begin).values())) + " |")
+    return "\n".join([*lines, ""])
+
+
+def own_pictures(detector: Detector, dataset: Path, most: int = 200) -> Dict[str, Interval]:
+    import cosfly
+
+    judged = cosfly.Dataset(dataset, split="test", channels=("rgb",))
+    seen, pictures, boxes, flights, others = seen_in(judged), [], [], [], []
+    for number in range(0, len(judged), max(1, len(judged) // most)):
+        sample = judged[number]
+        of_frame = seen.get((sample["trajectory_id"], int(sample["frame"])), [])
+        target = next((it for it in of_frame if it.body == "target" and it.is_clear), None)
+        if target:
+            pictures.append(Image.fromarray(sample["rgb"]))
+            boxes.append(target.box)
+            flights.append(sample["trajectory_id"])
+            others.append(np.array([it.box for it in of_frame if it.body != "target" and it.is_person]).reshape(-1, 4))
+    return in_squares(detector, pictures, np.array(boxes), np.array(flights), others)
