@@ -7,6 +7,7 @@ use cosfly_frames::real;
 use cosfly_town::MapError;
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::rc::Rc;
 
 /// Most levels of a tree, whose coordinates are numbers of 32 bits.
@@ -313,12 +314,10 @@ impl Subtree {
             let view = text.buffer_views.get(view).ok_or_else(cut)?;
             let buffer = match text.buffers.get(view.buffer).ok_or_else(cut)?.uri.as_deref() {
                 None => blob,
-                Some(uri) => {
-                    if !files.contains_key(&view.buffer) {
-                        files.insert(view.buffer, read(uri)?);
-                    }
-                    &files[&view.buffer]
-                }
+                Some(uri) => match files.entry(view.buffer) {
+                    Entry::Occupied(known) => known.into_mut(),
+                    Entry::Vacant(place) => place.insert(read(uri)?),
+                },
             };
             let own = buffer.get(view.byte_offset..).and_then(|rest| rest.get(..view.byte_length));
             let own = own.filter(|own| own.len() as u64 >= count.div_ceil(8)).ok_or_else(cut)?;
