@@ -212,8 +212,8 @@ def load(split, info, tasks):
     assert {"q01", "q99"} <= set(loaded.meta.stats["action"])
     if DEPTH in info["features"]:
         load_depth(split, loaded, info)
-    # LeRobot's own tool writes a part of the dataset, with true statistics.
-    if loaded.num_episodes > 1:
+    # LeRobot's own tool writes a part of the dataset, with true statistics; that of 0.4 takes all pictures for colours.
+    if loaded.num_episodes > 1 and (DEPTH not in info["features"] or hasattr(loaded.meta, "depth_keys")):
         from lerobot.datasets.dataset_tools import delete_episodes
 
         part = delete_episodes(loaded, [0], output_dir=Path(cache) / f"lerobot-part-{split}", repo_id=f"cosfly/{split}-part")
