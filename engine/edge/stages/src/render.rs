@@ -8,7 +8,7 @@ use crate::{nearby, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_domain::{
-    Around, BodyInSpace, Camera, PlanOutcome, TARGET_INSTANCE, TargetView, Trajectory, largest_object_instance,
+    BodyInSpace, Camera, PlanOutcome, TARGET_INSTANCE, TargetView, Trajectory, largest_object_instance,
 };
 use cosfly_experts::memo::Memo;
 use cosfly_experts::world::{check_same_town, link_town, world};
@@ -17,7 +17,7 @@ use cosfly_figures::{Bystander, outfit_of};
 use cosfly_film::Shooting;
 use cosfly_film::body_rays::{self, BodyRays};
 use cosfly_film::in_space::Taken;
-use cosfly_film::rate::{DronesBeside, FilmedFlight, filmed_around, filmed_flight};
+use cosfly_film::rate::{FilmedFlight, filmed_around, filmed_flight};
 use cosfly_flight::World;
 use cosfly_frames::{Pose, Seed};
 use cosfly_geometry::SpatialQuery;
@@ -26,7 +26,7 @@ use cosfly_schema::tables::kind_name;
 use cosfly_schema::{EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo};
 use cosfly_stage::parameters;
 use cosfly_stage::{
-    Artifact, InputPort, Inputs, ItemName, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, StageRole,
+    InputPort, Inputs, ItemName, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, StageRole,
     TaskContext,
 };
 use cosfly_write::frame_pack::{FramePackWriter, PackHeader};
@@ -119,7 +119,7 @@ impl Stage for RenderStage {
         let outcome = artifacts::FLIGHT.read(inputs, artifact)?;
         let film = context.id.item.variant().filter(|_| !self.config.films().is_empty());
         let config = self.config.of_camera(film);
-        let target = traffic::followed(inputs, artifact)?;
+        let (target, around) = (traffic::followed(inputs, artifact)?, traffic::around(inputs, artifact)?);
         let shooting = |trajectory: &Trajectory| Shooting::of(&config, trajectory, target.as_ref(), film);
         let (trajectory, shooting) = match filmable(&world, outcome, &shooting, (&config, context))? {
             Ok(filmed) => filmed,
@@ -145,8 +145,8 @@ impl Stage for RenderStage {
         let crowd = Crowd::around(inputs)?.and_drones(inputs, artifact, &world, trajectory.track.dt_s)?;
         let crowd = crowd.dressed_for(&shooting);
         let place = Place { scene: &scene, world: &world, crowd: &crowd };
-        let around = traffic::around(inputs, artifact)?;
-        let filmed = filmed((inputs, artifact), &trajectory, &config, (&world, &around))?;
+        let drones = artifacts::DRONES.find(inputs, artifact)?.unwrap_or_default().counted(&trajectory);
+        let filmed = filmed_flight(trajectory.clone(), &config, &world.exact, (&around, drones));
         let mut seen = self.draw(outputs, context, &place, (&trajectory, &filmed), (&config, &shooting))?;
         let mut notes = notes_of(&crowd, &seen.sightings);
         let (on_card, mut warnings) = render_files::scan_notes(&self.config);
@@ -194,19 +194,6 @@ impl Stage for RenderStage {
         outputs.put("index", &record.to_bytes())?;
         Ok(Produced { notes, warnings, rejected: None })
     }
-}
-
-/// The flight as its film has it, among the drones that its distances count.
-fn filmed(
-    (inputs, artifact): (&Inputs<'_>, &Artifact),
-    flight: &Trajectory,
-    config: &RenderConfig,
-    (world, around): (&World, &Around),
-) -> Result<Trajectory> {
-    let formation = artifacts::DRONES.find(inputs, artifact)?.unwrap_or_default();
-    let places = formation.counted(flight.perturbation.is_some());
-    let drones = DronesBeside { places, separation_m: formation.separation_m };
-    Ok(filmed_flight(flight.clone(), config, &world.exact, (around, &drones)))
 }
 
 /// The flight and how it is filmed, or the reason why it cannot be.

@@ -3,13 +3,13 @@
 
 use crate::Shooting;
 use crate::walks::{Person, walked_m};
-use cosfly_domain::{Around, FramePerturbation, Trajectory};
-use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
+use cosfly_domain::{Around, FramePerturbation, OrientedBox, Trajectory};
+use cosfly_frames::{Pose, TargetState, TargetTrack, real};
 use cosfly_geometry::SpatialQuery;
 use cosfly_optics::{pose_at, target_state_at};
 use cosfly_render::{Moment, RenderConfig};
 use cosfly_surroundings::exact::ExactMap;
-use cosfly_surroundings::moving::{OtherDrones, drone_boxes};
+use cosfly_surroundings::moving::OtherDrones;
 
 /// Largest distance from obstacles that is stated, metres.
 const CLEARANCE_CAP_M: f64 = 50.0;
@@ -145,15 +145,6 @@ impl<'a> FilmedFlight<'a> {
     }
 }
 
-/// Drones that the distances of a flight count.
-#[derive(Clone, Debug, Default)]
-pub struct DronesBeside {
-    /// Places of each, frame by frame, world frame, metres.
-    pub places: Vec<Vec<DVec3>>,
-    /// Smallest distance from drone to drone, metres.
-    pub separation_m: f64,
-}
-
 /// The flight as a film has it: every n-th frame, or moments between frames. Means and lengths of the certificate are those of the film's
 /// frames; limits, and what was measured against them between frames, stay those of the flight. `boxes`, `around` and `drones` are what
 /// stands and moves there.
@@ -161,7 +152,7 @@ pub fn filmed_flight(
     mut flight: Trajectory,
     config: &RenderConfig,
     boxes: &dyn SpatialQuery,
-    (around, drones): (&Around, &DronesBeside),
+    (around, (drones, kept)): (&Around, (Vec<Vec<OrientedBox>>, OtherDrones)),
 ) -> Trajectory {
     let rate = Rate::of(config, flight.track.dt_s);
     if rate.is_whole() {
@@ -169,13 +160,11 @@ pub fn filmed_flight(
     }
     if rate.after_s > 0.0 {
         let mut movers = later_around(around, rate.after_s).boxes();
-        let later = |places: &Vec<DVec3>| {
-            let share = rate.after_s / rate.dt_s;
-            let places: Vec<DVec3> = places.windows(2).map(|pair| pair[0].lerp(pair[1], share)).collect();
-            drone_boxes(&places)
+        let between = |pair: &[OrientedBox]| {
+            let center_in_world = pair[0].center_in_world.lerp(pair[1].center_in_world, rate.after_s / rate.dt_s);
+            OrientedBox { center_in_world, ..pair[0] }
         };
-        movers.extend(drones.places.iter().map(later));
-        let kept = OtherDrones { count: drones.places.len(), separation_m: drones.separation_m };
+        movers.extend(drones.iter().map(|places| places.windows(2).map(between).collect()));
         let clearance_m = flight.certificate.limits.clearance_m;
         be_later(&mut flight, &rate, ExactMap { drones: kept, clearance_m, ..ExactMap::among(boxes, &movers) });
     }
@@ -302,8 +291,9 @@ fn present(mut around: Around) -> Around {
 mod tests {
     use super::*;
     use cosfly_domain::{Body, BodyKind, BodyPlan, Certificate, Traffic};
-    use cosfly_frames::Seed;
+    use cosfly_frames::{DVec3, Seed};
     use cosfly_geometry::BoxBvh;
+    use cosfly_surroundings::moving::drone_boxes;
 
     fn state(x: f64) -> TargetState {
         TargetState { feet_in_world: DVec3::X * x, heading_rad: 0.0, speed_mps: 1.0 }
@@ -342,7 +332,12 @@ mod tests {
             certificate: Certificate { max_speed_mps: 2.0, ..Certificate::default() },
             perturbation: None,
         };
-        let film = filmed_flight(flight.clone(), &every(3), &nothing(), (&Around::default(), &DronesBeside::default()));
+        let film = filmed_flight(
+            flight.clone(),
+            &every(3),
+            &nothing(),
+            (&Around::default(), (vec![], OtherDrones::default())),
+        );
         assert_eq!((film.track.dt_s, &film.visibility[..]), (1.5, &[1.0, 0.25, 1.0][..]));
         assert!(film.poses_in_world.iter().eq([0, 3, 6].map(|k| &flight.poses_in_world[k])));
         assert_eq!(film.coverage, [1.0, 2.0 + 3.0 + 4.0, 5.0 + 6.0 + 7.0]);
@@ -351,16 +346,19 @@ mod tests {
         assert!((it.frames_half_visible - 2.0 / 3.0).abs() < 1e-12 && (it.mean_distance_m - 5.0).abs() < 1e-12);
         assert!((it.max_yaw_rate_deg_s - 0.1f64.to_degrees() / 1.5).abs() < 1e-9);
         assert_eq!(
-            filmed_flight(flight.clone(), &every(1), &nothing(), (&Around::default(), &DronesBeside::default())),
+            filmed_flight(
+                flight.clone(),
+                &every(1),
+                &nothing(),
+                (&Around::default(), (vec![], OtherDrones::default()))
+            ),
             flight
         );
         // Between frames, the drone beside it is where it is then: 4 m aside, less half its box.
-        let drones = DronesBeside {
-            places: vec![(0..8).map(|k| DVec3::new(f64::from(k), 4.0, 5.0)).collect()],
-            separation_m: 0.0,
-        };
+        let places: Vec<DVec3> = (0..8).map(|k| DVec3::new(f64::from(k), 4.0, 5.0)).collect();
+        let drones = (vec![drone_boxes(&places)], OtherDrones { count: 1, separation_m: 0.0 });
         let late = RenderConfig { begins_ns: 250_000_000, ..RenderConfig::default() };
-        let film = filmed_flight(flight, &late, &nothing(), (&Around::default(), &drones));
+        let film = filmed_flight(flight, &late, &nothing(), (&Around::default(), drones));
         assert!(film.clearance_m.len() == 7 && film.clearance_m.iter().all(|it| (it - 3.7).abs() < 1e-9), "{film:?}");
     }
 

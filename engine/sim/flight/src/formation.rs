@@ -1,6 +1,6 @@
 //! The drones behind the same walk: what twins, pictures and filters of a drone's flight need to know of the others.
 
-use cosfly_domain::{Body, BodyKind, BodyPlan, OrientedBox};
+use cosfly_domain::{Body, BodyKind, BodyPlan, OrientedBox, Trajectory};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_surroundings::moving::{OtherDrones, drone_boxes};
 use serde::{Deserialize, Serialize};
@@ -40,9 +40,16 @@ impl Formation {
         self.drones.iter().take(self.own as usize).flatten().map(Drone::places)
     }
 
-    /// Places of the drones that the distances of a flight count: those before it, of a perturbed twin all others.
-    pub fn counted(&self, of_twin: bool) -> Vec<Vec<DVec3>> {
-        if of_twin { self.others().map(Drone::places).collect() } else { self.before().collect() }
+    /// Boxes of the drones that the distances of a flight count, and what is kept from them: those before it, of a perturbed twin all others.
+    pub fn counted(&self, flight: &Trajectory) -> (Vec<Vec<OrientedBox>>, OtherDrones) {
+        let mut boxes = vec![];
+        let kept = self.join(&mut boxes);
+        if flight.perturbation.is_some() {
+            return (boxes, kept);
+        }
+        boxes = self.before().map(|places| drone_boxes(&places)).collect();
+        let count = boxes.len();
+        (boxes, OtherDrones { count, ..kept })
     }
 
     /// Adds the boxes of all other drones to those that move; says what is kept from them.
