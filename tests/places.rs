@@ -67,6 +67,63 @@ fn a_house_of_a_further_file_stands_beside_the_street_whose_header_has_an_offset
     assert!(inspect(folder.path(), &["street.xodr", "--set", more]).is_ok());
 }
 
+/// People and cars on a slope, and a flight behind one of each.
+const SLOPE: &str = r#"
+name = "slope"
+[stages.town]
+use = "map"
+source = "slope.json"
+[stages.street]
+use = "traffic"
+inputs.town = "town"
+frames = 40
+people.count = 60
+vehicles.count = 12
+follow = { count = 2, kinds = ["pedestrian", "runner"] }
+people.kinds.runner = 0.3
+[stages.expert]
+use = "plan"
+inputs = { town = "town", walks = "street" }
+[stages.frames]
+use = "render"
+inputs = { town = "town", trajectories = "expert", others = "street" }
+width = 96
+height = 64
+[stages.dataset]
+use = "dataset"
+inputs = { town = "town", frames = "frames" }
+name = "slope"
+title = "slope"
+description = "slope"
+"#;
+
+#[test]
+fn the_steepest_hillside_is_walked_flown_filmed_and_verified_and_a_steeper_one_is_refused() {
+    let folder = tempfile::tempdir().expect("scratch");
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("written");
+    let slope = |percent: u32| {
+        let town = format!(r#"{{"size_m": 220, "steepest_percent": {percent}}}"#);
+        write(
+            "slope.json",
+            &format!(r#"{{"format": "cosfly-generated/1", "seed": 9, "place": "hillside", "town": {town}}}"#),
+        );
+    };
+    write("slope.toml", SLOPE);
+    slope(16);
+    let town = inspect(folder.path(), &["slope.json"]).unwrap();
+    let rise_m = town["max_m"][2].as_f64().unwrap() - town["min_m"][2].as_f64().unwrap();
+    assert!(rise_m > 30.0, "{rise_m} m");
+    for arguments in [["run", "slope.toml", "--out", "out"].as_slice(), &["verify", "out"]] {
+        let printed = cosfly(arguments).within(folder.path()).run();
+        assert_eq!(printed.code, Some(0), "{}", printed.stderr);
+        assert!(!printed.stderr.contains("rejected: expert"), "{}", printed.stderr);
+    }
+    slope(30);
+    let refusal = inspect(folder.path(), &["slope.json"]).unwrap_err();
+    assert!(refusal.contains("`town.steepest_percent` of the place `hillside` is 30, out of its range"), "{refusal}");
+    assert!(refusal.contains("it must be 3 to 16"), "{refusal}");
+}
+
 #[test]
 fn a_map_shows_what_it_lacks_and_bounds_cut_it() {
     let folder = tempfile::tempdir().expect("scratch");

@@ -3,7 +3,7 @@
 
 use cosfly_domain::{Body, BodyKind, BodyPlan, Town, Traffic, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3, Seed, TargetState, real};
-use cosfly_pedestrians::crowd::KindShares;
+use cosfly_pedestrians::crowd::{GroupConfig, KindShares};
 use cosfly_pedestrians::{Crowd, CrowdConfig, ScriptedPerson, WalkableGrid, Waypoint, path_of, scripted};
 use cosfly_world::{Clock, Population, Prescribed, contacts, simulate};
 use std::sync::Arc;
@@ -121,6 +121,23 @@ fn frames_of_any_length_keep_bodies_apart_and_feet_on_the_ground() {
             assert_eq!((path.ground.len(), path.standing.len()), (frames as usize, frames as usize));
         }
     }
+}
+
+#[test]
+fn runners_run_alone_past_people_who_walk_and_touch_nobody() {
+    let kinds = KindShares { runner: 0.3, ..KindShares::default() };
+    let groups = GroupConfig { share: 0.0, ..GroupConfig::default() };
+    let config = CrowdConfig { count: 40, kinds, groups, ..CrowdConfig::default() };
+    let (town, clock) = (street(), Clock::new(120, 0.5, 0.1));
+    let traffic = simulated(vec![crowd(&grid(&town, &config), &config, clock, 5)], clock);
+    assert_eq!(contacts(&traffic, 0.0), []);
+    let fastest_mps = |kind: BodyKind| {
+        let of_kind = traffic.bodies.iter().filter(|body| body.plan.kind == kind);
+        of_kind.flat_map(|body| &body.states).map(|state| state.speed_mps).fold(0.0, f64::max)
+    };
+    let [walks_mps, runs_mps] = [BodyKind::Pedestrian, BodyKind::Runner].map(fastest_mps);
+    // Steps are chords of ways: nobody walks faster than this.
+    assert!(walks_mps < 2.76 && runs_mps > 2.8, "{walks_mps} m/s, {runs_mps} m/s");
 }
 
 #[test]
