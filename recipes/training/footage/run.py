@@ -39,11 +39,11 @@ def arguments() -> argparse.Namespace:
     add("--others", **sequence, help="the same for a sequence that follows anything else: for the tracker alone")
     add("--without", choices=sorted(PARTS), help="leave a part of the recipe out, to see what it is good for")
     add("--set", action="append", default=[], metavar="KEY=VALUE", help="change the recipe, as in `cosfly run`")
-    add("--steps", type=int, default=3000, help="steps of the detector, twice those of the tracker, which begins with its weights (default: 3000)")
+    add("--steps", type=int, default=2000, help="steps of the detector, twice those of the tracker, which begins with its weights (default: 2000)")
     add("--per-frame", type=int, default=3, help="bodies around which squares are cut from each picture (default: 3)")
     add("--every", type=int, default=4, help="score the detector on every n-th picture of a sequence (default: 4)")
     add("--seed", type=int, default=1)
-    add("--threads", type=int, default=2, help="threads of torch: other numbers give other last bits (default: 2)")
+    add("--threads", type=int, default=1, help="threads of torch: other numbers give other last bits (default: 1)")
     options = parser.parse_args()
     for sequence in options.people + options.others:
         if len(sequence) not in (2, 3) or (len(sequence) == 3 and not sequence[2].isdigit()):
