@@ -13,6 +13,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 from shared import require, run, said
@@ -91,8 +92,9 @@ require("Usage" in run(program, *last["CMD"]), "CMD says nothing")
 user = [*("setpriv --reuid=65534 --regid=65534 --clear-groups".split() if os.getuid() == 0 else [])]
 place = inside(stage, "", folder)
 place.chmod(0o777)
-for part in [work, *work.parents][:3]:
-    if os.getuid() == 0 and part != Path("/tmp"):
+temporary = Path(tempfile.gettempdir()).resolve()
+for part in [work, *work.parents]:
+    if os.getuid() == 0 and temporary in part.parents:
         part.chmod(part.stat().st_mode | 0o111)
 command = next(line for line in lines if "docker run" in line).split(" cosfly ", 1)[1]
 arguments = [str(root) + it if it.startswith("/") else it for it in shlex.split(command)]
