@@ -4,12 +4,12 @@ use crate::{Body, BodyPlan, OrientedBox, Traffic};
 use cosfly_frames::TargetTrack;
 use serde::{Deserialize, Serialize};
 
-/// The body that a walk is the track of.
+/// The body that a walk is the track of: of traffic, or one that is not a grown person on foot.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Followed {
-    /// Name of the traffic.
+    /// Name of the traffic; empty for a walk of its own.
     pub traffic: String,
-    /// Number of the body in the traffic.
+    /// Number of the body in the traffic, or of the walk.
     pub number: u32,
     /// Kind, size and looks.
     pub plan: BodyPlan,

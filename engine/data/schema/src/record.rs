@@ -138,7 +138,7 @@ pub struct RenderedTrajectory {
     pub visible_by_dense_rays: Vec<Option<f64>>,
     /// Clothes of the target; `None` for a target without a body.
     pub outfit: Option<Outfit>,
-    /// The target among the bodies of traffic; `None` outside of traffic.
+    /// The target, a body of traffic or of a walk of its own; `None` for a grown person on such a walk.
     pub followed: Option<Followed>,
     /// Bodies of traffic around the target, seen or not; none outside of traffic.
     pub around: Around,

@@ -26,7 +26,10 @@ impl Crowd {
             let blob = nearby::walk_blob(&walk_id);
             let walk = inputs.decoded(artifact, &blob, |bytes| artifacts::WALK.decode(bytes))?;
             let walk: &PedestrianPath = &walk;
-            Ok(member(instance, walk_id, Person::on(walk)?))
+            let body = nearby::body_blob(&walk_id);
+            let followed =
+                artifact.blobs.contains_key(&*body).then(|| artifacts::FOLLOWED.decode(&inputs.read(artifact, &body)?));
+            Ok(member(instance, walk_id, Person::on(walk, followed.transpose()?.as_ref())?))
         };
         let mut members: Vec<_> =
             artifacts::NEARBY.read(inputs, artifact)?.into_iter().map(read).collect::<Result<_>>()?;

@@ -2,7 +2,7 @@
 //! item of its own per film, so that one more walker films nothing anew where that walker is never in view.
 
 use crate::ports::{self, NEARBY, TRAJECTORY, WALK};
-use crate::traffic::{followed, traffic_of};
+use crate::traffic::{self, followed, traffic_of};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::PlanOutcome;
@@ -123,7 +123,7 @@ pub fn add(
     let is_other = |artifact: &Artifact| followed.is_none_or(|id| artifact.id.to_string() != id);
     for (item, artifact) in artifacts.iter().enumerate().filter(|(_, artifact)| is_other(artifact)) {
         let walk = artifacts::WALK.shared(inputs, artifact)?;
-        match candidates.add_walk(stage, item, &walk)? {
+        match candidates.add_walk((stage, item), &walk, traffic::followed(inputs, artifact)?.as_ref())? {
             None => {}
             Some(CandidateRefusal::NoId) => return Err(too_many(artifact)),
             Some(CandidateRefusal::NoSteps) => {
@@ -133,6 +133,11 @@ pub fn add(
         }
     }
     Ok(())
+}
+
+/// Name of the blob of an item that holds who is on the walk of a person, where that is not a grown person on foot.
+pub fn body_blob(walk_id: &str) -> String {
+    format!("body-{walk_id}")
 }
 
 /// Writes those who are near; `stages` are the items at port `others` by stage.
@@ -145,6 +150,9 @@ fn put(outputs: &mut dyn OutputSink, near: &[Candidate], stages: &[&[Artifact]])
                 let artifact = &stages[*stage][*item];
                 let walk_id = artifact.name.to_string();
                 outputs.link(&walk_blob(&walk_id), artifact.blobs[artifacts::WALK.blob])?;
+                if let Some(body) = artifact.blobs.get(artifacts::FOLLOWED.blob) {
+                    outputs.link(&body_blob(&walk_id), *body)?;
+                }
                 people.push(NearbyWalk { instance: *instance, walk_id });
             }
             Origin::Body(traffic, number) => NearbyBodies::add(&mut bodies, traffic, *number, *instance),

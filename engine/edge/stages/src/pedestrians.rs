@@ -4,10 +4,12 @@ use crate::ports::{self, WALK};
 use crate::single;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
+use cosfly_domain::{BodyKind, Followed};
 use cosfly_experts::area_pictures;
 use cosfly_experts::artifacts;
 use cosfly_experts::memo::Memo;
 use cosfly_experts::world::{link_town, world};
+use cosfly_film::body_on;
 use cosfly_frames::Seed;
 use cosfly_pedestrians::{PedestrianConfig, PedestrianError, WalkableGrid, walk};
 use cosfly_stage::parameters;
@@ -77,6 +79,12 @@ impl Stage for PedestrianStage {
         let grid = self.grid.get(digest, build)?;
         let path = walk(&grid, &self.config, Seed(context.seed)).map_err(refused)?;
         artifacts::WALK.put(outputs, &path)?;
+        let kind = self.config.kinds.draw(&Seed(context.seed));
+        if kind != BodyKind::Pedestrian {
+            let number = context.id.item.number().unwrap_or(0) as u32;
+            let plan = body_on(&path.track, kind)?;
+            artifacts::FOLLOWED.put(outputs, &Followed { traffic: String::new(), number, plan })?;
+        }
         link_town(inputs, outputs)?;
         Ok(Produced::default())
     }

@@ -92,11 +92,16 @@ impl<'a> Candidates<'a> {
         Ok(())
     }
 
-    /// Adds walk number `item` of stage number `stage`. `Some` is the reason why that cannot be.
+    /// Adds walk number `item` of stage number `stage`; `followed` where it is not a grown person on foot. `Some` is the reason why that cannot be.
     ///
     /// # Errors
     /// Those of [`Person::on`].
-    pub fn add_walk(&mut self, stage: usize, item: usize, walk: &PedestrianPath) -> Result<Option<CandidateRefusal>> {
+    pub fn add_walk(
+        &mut self,
+        (stage, item): (usize, usize),
+        walk: &PedestrianPath,
+        followed: Option<&Followed>,
+    ) -> Result<Option<CandidateRefusal>> {
         let track = &walk.track;
         if track.is_empty() || !(track.dt_s > 0.0 && track.dt_s.is_finite()) {
             return Ok(Some(CandidateRefusal::NoSteps));
@@ -105,7 +110,7 @@ impl<'a> Candidates<'a> {
             Ok(instance) => instance,
             Err(refused) => return Ok(Some(refused)),
         };
-        let person = Person::on(walk)?;
+        let person = Person::on(walk, followed)?;
         if person.meets(&self.flight.track) {
             self.left_out += 1;
         } else {

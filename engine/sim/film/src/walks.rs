@@ -25,22 +25,20 @@ pub struct Person {
 }
 
 impl Person {
-    /// The person on `walk`.
-    pub fn on(walk: &PedestrianPath) -> Result<Self> {
-        let (track, looks) = (walk.track.clone(), walk_seed(&walk.track)?);
-        Ok(Self {
-            walked_m: walked_m(&track.states),
-            plan: pedestrian(&track, looks),
-            track,
-            first_s: 0.0,
-            comes_and_goes: false,
-            body: BodyShape::default(),
-        })
+    /// The person on `walk`; `followed` where it is not a grown person on foot.
+    pub fn on(walk: &PedestrianPath, followed: Option<&Followed>) -> Result<Self> {
+        let track = walk.track.clone();
+        let plan = match followed {
+            None => body_on(&track, BodyKind::Pedestrian)?,
+            Some(followed) => followed.plan.clone(),
+        };
+        let (walked_m, body) = (walked_m(&track.states), BodyShape::of(plan.kind, plan.size_m));
+        Ok(Self { walked_m, plan, track, first_s: 0.0, comes_and_goes: false, body })
     }
 
-    /// The target of a flight; `followed` where it is a body of traffic.
+    /// The target of a flight; `followed` where it is not a grown person on a walk of its own.
     pub fn target(track: &TargetTrack, followed: Option<&Followed>) -> Self {
-        let plan = followed.map_or_else(|| pedestrian(track, Seed([0; 32])), |it| it.plan.clone());
+        let plan = followed.map_or_else(|| plan_of(track, BodyKind::Pedestrian, Seed([0; 32])), |it| it.plan.clone());
         Self::of(&Body { plan, first_frame: 0, states: track.states.clone() }, track.dt_s)
     }
 
@@ -125,10 +123,19 @@ impl Person {
     }
 }
 
-/// Properties of somebody on a track that do not change.
-fn pedestrian(track: &TargetTrack, looks: Seed) -> BodyPlan {
-    let size_m = DVec3::new(2.0 * track.radius_m, 2.0 * track.radius_m, track.height_m);
-    BodyPlan { source: String::new(), kind: BodyKind::Pedestrian, size_m, looks, group: None }
+/// Properties of somebody of a kind on a walk of their own.
+///
+/// # Errors
+/// Those of [`walk_seed`].
+pub fn body_on(track: &TargetTrack, kind: BodyKind) -> Result<BodyPlan> {
+    Ok(plan_of(track, kind, walk_seed(track)?))
+}
+
+fn plan_of(track: &TargetTrack, kind: BodyKind, looks: Seed) -> BodyPlan {
+    let outline_m = kind.row().walking.as_ref().and_then(|it| it.outline_m);
+    let [length_m, width_m] = outline_m.unwrap_or([2.0 * track.radius_m; 2]);
+    let size_m = DVec3::new(length_m, width_m, track.height_m);
+    BodyPlan { source: String::new(), kind, size_m, looks, group: None }
 }
 
 /// Whether two bodies touch in a frame, one beside the other and at the same height.

@@ -1,6 +1,7 @@
 //! [`PedestrianConfig`]: the parameters of pedestrians in a recipe, and the rules between them.
 
-use crate::{AreaConfig, PedestrianConfigRule};
+use crate::kinds::is_zero;
+use crate::{AreaConfig, KindShares, PedestrianConfigRule};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -28,6 +29,9 @@ pub struct PedestrianConfig {
     pub speed_variation_share: f64,
     /// Random stops.
     pub stops: StopConfig,
+    /// Children, old people, runners and people who take something along, by share. Default none.
+    #[serde(skip_serializing_if = "KindShares::is_default")]
+    pub kinds: KindShares,
     /// Share of restless pedestrians, who turn about every few metres, as children at play and people who search. Flights
     /// behind them are hard (`difficulty`). Default 0.
     #[serde(skip_serializing_if = "is_zero")]
@@ -55,10 +59,6 @@ pub struct PedestrianConfig {
     pub areas: Vec<AreaConfig>,
 }
 
-pub(crate) fn is_zero(share: &f64) -> bool {
-    *share == 0.0
-}
-
 impl Default for PedestrianConfig {
     fn default() -> Self {
         Self {
@@ -69,6 +69,7 @@ impl Default for PedestrianConfig {
             turn_slowdown_m: 1.0,
             speed_variation_share: 0.1,
             stops: StopConfig::default(),
+            kinds: KindShares::default(),
             restless_share: 0.0,
             height: HeightRange::default(),
             radius: RadiusRange::default(),
@@ -191,6 +192,7 @@ impl PedestrianConfig {
         for (path, value, min, max) in numbers {
             PedestrianConfigRule::within(path, value, min, max)?;
         }
+        self.kinds.check()?;
         AreaConfig::check(&self.areas)?;
         PedestrianConfigRule::within(&["min_route_m"], self.min_route_m, 1.0, 10_000.0)?;
         PedestrianConfigRule::within(&["frames"], f64::from(self.frames), 2.0, 100_000.0)?;

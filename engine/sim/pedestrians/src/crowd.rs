@@ -5,7 +5,6 @@
 
 mod company;
 mod config;
-mod kinds;
 mod limits;
 mod one_way;
 mod pace;
@@ -23,7 +22,6 @@ pub use config::{CrowdConfig, CrowdStopConfig, GroundCostConfig, GroupConfig, Si
 use cosfly_domain::{BodyPlan, Town};
 use cosfly_frames::{DVec2, Seed, TargetState};
 use cosfly_world::{Clock, Population, Present, Snapshot};
-pub use kinds::KindShares;
 use limits::Limits;
 use person::{HARDEST_MPS2, Person};
 use roads::Right;

@@ -103,7 +103,7 @@ impl WalkableGrid {
             ground,
             obstruction,
             weights: Weights::new(&config.areas),
-            radius_m: config.radius.max_m,
+            radius_m: config.kinds.clearance_m(config.radius.max_m),
             height_m: config.height.max_m,
         };
         let ground_cells = grid.lay_nodes().map_err(|count| too_large(count as f64, MAX_CELLS))?;

@@ -3,12 +3,13 @@
 use crate::goal::{
     GOAL_ATTEMPTS, LONGEST_LEG_M, LONGEST_TURN_M, TURN_NODES, draw_goal, draw_start, draw_turn, roomy_pieces,
 };
+use crate::kinds::OfKind;
 use crate::motion::{self, ArcPath};
 use crate::route::{LONE_COSTS, RouteSearch, TASTE_SHARE};
 use crate::smooth::smooth;
-use crate::{PedestrianConfig, PedestrianError, PedestrianPath, WalkableGrid};
-use cosfly_domain::WalkableKind;
-use cosfly_frames::{DVec2, RandomStream, Seed, TargetState, TargetTrack};
+use crate::{PedestrianConfig, PedestrianError, PedestrianPath, SpeedConfig, WalkableGrid};
+use cosfly_domain::{BodyKind, WalkableKind};
+use cosfly_frames::{DVec2, RandomStream, Seed, TargetState, TargetTrack, real};
 
 /// Shortest straight distance to the next goal, metres.
 const SHORTEST_LEG_M: f64 = 15.0;
@@ -23,12 +24,16 @@ const TURNING_BACK_REFUSALS: usize = 3;
 /// Smoothing cuts corners; routes are made longer by this.
 const SPARE: f64 = 1.12;
 
+/// Attempts to find a place for a chair, and how closed the ground around it is: a length of [`WalkableGrid::away_from_edge`].
+const SEAT_ATTEMPTS: usize = 400;
+const SEAT_EDGE: f64 = 0.5;
+
 /// Rounds of making a route longer.
 const ROUNDS: usize = 6;
 
 /// Walks one pedestrian over the grid for exactly `steps` frames.
 ///
-/// The seed decides the person, the start, every goal, the preferences, the speeds and the stops. Every point
+/// The seed decides the person ([`crate::KindShares::draw`] says of which kind), the start, every goal, the preferences, the speeds and the stops. Every point
 /// between two frames lies on walkable ground, at least the largest body radius from every obstacle. A walk whose
 /// goal is near goes on to another; it ends standing only where no route leads on.
 ///
@@ -36,7 +41,11 @@ const ROUNDS: usize = 6;
 /// When the config breaks its rules or no connected piece of ground is `min_route_m` across.
 pub fn walk(grid: &WalkableGrid, config: &PedestrianConfig, seed: Seed) -> Result<PedestrianPath, PedestrianError> {
     config.check()?;
-    let person = Person::drawn(config, seed);
+    let (person, config) = Person::drawn(config, seed);
+    let config = &config;
+    if person.kind == BodyKind::Sitter {
+        return seated(grid, config, &person, seed);
+    }
     let fastest_mps = (person.cruise_mps * (1.0 + config.speed_variation_share)).min(config.speed.max_mps);
     let needed_m = fastest_mps * config.dt_s * f64::from(config.frames) + 1.0;
     let mut chain = GoalChain::new(grid, config, seed)?;
@@ -75,27 +84,58 @@ fn timed(
         states.push(TargetState { feet_in_world, heading_rad: frame.heading_rad, speed_mps: frame.speed_mps });
         ground.push(kind.or(ground.last().copied()).unwrap_or(WalkableKind::Sidewalk));
     }
-    let track = TargetTrack { dt_s: config.dt_s, height_m: person.height_m, radius_m: person.radius_m, states };
-    PedestrianPath { track, ground, standing: frames.iter().map(|frame| frame.standing).collect() }
+    let standing = frames.iter().map(|frame| frame.standing).collect();
+    PedestrianPath { track: person.track(config, states), ground, standing }
 }
 
-/// Body and cruise speed of the person who walks.
+/// Somebody who sits at an edge of the walkable ground and faces away from it.
+fn seated(
+    grid: &WalkableGrid,
+    config: &PedestrianConfig,
+    person: &Person,
+    seed: Seed,
+) -> Result<PedestrianPath, PedestrianError> {
+    let (mut stream, roomy) = (seed.stream("goals"), roomy_pieces(grid, config.min_route_m)?);
+    let mut place = (DVec2::ZERO, DVec2::X);
+    for _ in 0..SEAT_ATTEMPTS {
+        let at = grid.center(draw_start(grid, &roomy, &mut stream).1);
+        place = (at, grid.away_from_edge(at));
+        if place.1.length() >= SEAT_EDGE {
+            break;
+        }
+    }
+    let (feet_in_world, kind) = grid.feet_at(place.0);
+    let state = TargetState { feet_in_world, heading_rad: real::atan2(place.1.y, place.1.x), speed_mps: 0.0 };
+    let frames = config.frames as usize;
+    let ground = vec![kind.unwrap_or(WalkableKind::Sidewalk); frames];
+    Ok(PedestrianPath { track: person.track(config, vec![state; frames]), ground, standing: vec![true; frames] })
+}
+
+/// Kind, body and cruise speed of the person who walks.
 struct Person {
+    kind: BodyKind,
     cruise_mps: f64,
     height_m: f64,
     radius_m: f64,
 }
 
 impl Person {
-    fn drawn(config: &PedestrianConfig, seed: Seed) -> Self {
+    /// The person, and the config with the limits of the kind's speed.
+    fn drawn(config: &PedestrianConfig, seed: Seed) -> (Self, PedestrianConfig) {
         let mut stream = seed.stream("person");
-        Self {
-            cruise_mps: stream
-                .normal(config.speed.mean_mps, config.speed.deviation_mps)
-                .clamp(config.speed.min_mps, config.speed.max_mps),
-            height_m: stream.uniform(config.height.min_m, config.height.max_m),
-            radius_m: stream.uniform(config.radius.min_m, config.radius.max_m),
-        }
+        let SpeedConfig { mean_mps, deviation_mps, min_mps, max_mps } = config.speed;
+        let cruise_mps = stream.normal(mean_mps, deviation_mps).clamp(min_mps, max_mps);
+        let height_m = stream.uniform(config.height.min_m, config.height.max_m);
+        let radius_m = stream.uniform(config.radius.min_m, config.radius.max_m);
+        let kind = config.kinds.draw(&seed);
+        let OfKind { pace, height_m, radius_m } = OfKind::drawn(kind, &seed, height_m, radius_m);
+        let speed = SpeedConfig { min_mps: pace * min_mps, max_mps: pace * max_mps, ..config.speed.clone() };
+        let person = Self { kind, cruise_mps: cruise_mps * pace, height_m, radius_m };
+        (person, PedestrianConfig { speed, ..config.clone() })
+    }
+
+    fn track(&self, config: &PedestrianConfig, states: Vec<TargetState>) -> TargetTrack {
+        TargetTrack { dt_s: config.dt_s, height_m: self.height_m, radius_m: self.radius_m, states }
     }
 }
 

@@ -3,7 +3,8 @@
 
 use cosfly_domain::{Body, BodyKind, BodyPlan, Town, Traffic, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3, Seed, TargetState, real};
-use cosfly_pedestrians::crowd::{GroupConfig, KindShares};
+use cosfly_pedestrians::KindShares;
+use cosfly_pedestrians::crowd::GroupConfig;
 use cosfly_pedestrians::{Crowd, CrowdConfig, ScriptedPerson, WalkableGrid, Waypoint, path_of, scripted};
 use cosfly_world::{Clock, Population, Prescribed, contacts, simulate};
 use std::sync::Arc;

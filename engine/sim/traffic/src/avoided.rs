@@ -1,7 +1,7 @@
 //! People whom traffic moves around: other stages made their walks, and they make way for nobody.
 
 use cosfly_diagnose::Result;
-use cosfly_domain::{BodyPlan, Traffic};
+use cosfly_domain::{BodyPlan, Followed, Traffic};
 use cosfly_film::Person;
 use cosfly_frames::TargetState;
 use cosfly_pedestrians::PedestrianPath;
@@ -22,13 +22,13 @@ impl Avoided {
         self.people.extend(bodies.map(|body| Person::of(body, traffic.dt_s)));
     }
 
-    /// Adds somebody on a walk; nobody where it has no steps.
+    /// Adds somebody on a walk, `followed` where it is not a grown person on foot; nobody where it has no steps.
     ///
     /// # Errors
     /// Those of [`Person::on`].
-    pub fn add_walk(&mut self, walk: &PedestrianPath) -> Result<()> {
+    pub fn add_walk(&mut self, walk: &PedestrianPath, followed: Option<&Followed>) -> Result<()> {
         if !walk.track.is_empty() {
-            self.people.push(Person::on(walk)?);
+            self.people.push(Person::on(walk, followed)?);
         }
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! `traffic`: people and vehicles who move together through the town, and the walks of those who are followed.
 
-use super::moving::traffic_of;
+use super::moving::{followed, traffic_of};
 use crate::ports::{self, TRAFFIC, WALK};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
@@ -116,7 +116,9 @@ fn avoided(inputs: &Inputs<'_>) -> Result<Avoided> {
     for walks in inputs.all(AVOID).chunk_by(|a, b| a.id.stage == b.id.stage) {
         match walks.first().map_or(Ok(None), |walk| traffic_of(inputs, walk))? {
             Some(traffic) => avoided.add_traffic(&traffic),
-            None => walks.iter().try_for_each(|walk| avoided.add_walk(&*artifacts::WALK.shared(inputs, walk)?))?,
+            None => walks.iter().try_for_each(|walk| {
+                avoided.add_walk(&*artifacts::WALK.shared(inputs, walk)?, followed(inputs, walk)?.as_ref())
+            })?,
         }
     }
     Ok(avoided)

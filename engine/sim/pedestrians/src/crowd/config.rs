@@ -1,8 +1,7 @@
 //! [`CrowdConfig`]: the parameters of people who walk a town together, and the rules between them.
 
-use crate::config::is_zero;
-use crate::crowd::KindShares;
-use crate::{AreaConfig, HeightRange, PedestrianConfig, PedestrianConfigRule, RadiusRange, SpeedConfig};
+use crate::kinds::is_zero;
+use crate::{AreaConfig, HeightRange, KindShares, PedestrianConfig, PedestrianConfigRule, RadiusRange, SpeedConfig};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

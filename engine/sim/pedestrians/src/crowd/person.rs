@@ -1,7 +1,8 @@
 //! [`Person`]: one member of a crowd: what is drawn once, and the present state.
 
 use crate::crowd::CrowdConfig;
-use cosfly_domain::{BodyKind, BodyPlan, Walking};
+use crate::kinds::OfKind;
+use cosfly_domain::{BodyKind, BodyPlan};
 use cosfly_frames::{DVec2, DVec3, RandomStream, Seed, TargetState, real};
 
 /// Largest acceleration that people choose, m/s2.
@@ -98,15 +99,8 @@ impl Person {
 
     /// The person with the size and pace of a kind.
     fn of_kind(self, kind: BodyKind, seed: &Seed) -> Self {
-        let Some(Walking { heights_m, pace: [slow, fast], outline_m }) = kind.row().walking else { return self };
-        if kind == self.kind {
-            return self;
-        }
-        let mut stream = seed.stream("kind size");
-        let cruise_mps = self.cruise_mps * stream.uniform(slow, fast);
-        let height_m = heights_m.map_or(self.height_m, |[low, high]| stream.uniform(low, high));
-        let radius_m = outline_m.map_or(self.radius_m * height_m / self.height_m, |[length_m, _]| 0.5 * length_m);
-        Self { kind, cruise_mps, height_m, radius_m, ..self }
+        let OfKind { pace, height_m, radius_m } = OfKind::drawn(kind, seed, self.height_m, self.radius_m);
+        Self { kind, cruise_mps: self.cruise_mps * pace, height_m, radius_m, ..self }
     }
 
     /// Whether the person sits and never moves.

@@ -23,7 +23,7 @@ columns! { Trajectories::IDENTITY of DatasetItem;
     /// Kind of the target: `pedestrian`, `bicycle`, `motorcycle`, `car`, `van`, `truck` or `bus`; null for a target without a body.
     target_kind: Option<String> = |item, _| item.record.target_kind().map(|kind| kind.name().to_owned());
     /// Id of the target as `bodies.body_id` of other trajectories has it; null outside of stage `traffic`.
-    target_body_id: Option<String> = |item, _| item.record.followed.as_ref().map(|it| Traffic::body_id(&it.traffic, it.number));
+    target_body_id: Option<String> = |item, _| item.record.followed.as_ref().filter(|it| !it.traffic.is_empty()).map(|it| Traffic::body_id(&it.traffic, it.number));
     /// Colour of the target's shirt or jacket in words, the same in all flights behind the pedestrian unless the recipe says
     /// otherwise; null for a target without a body.
     target_top_colour: Option<String> = |item, _| outfit(item).map(|it| it.top.name.name().to_owned());

@@ -1,7 +1,7 @@
-//! [`KindShares`]: which shares of a crowd are children, old people, and people who take something along.
+//! [`KindShares`]: which shares of the people are children, old people, and people who take something along.
 
 use crate::PedestrianConfigRule;
-use cosfly_domain::BodyKind;
+use cosfly_domain::{BodyKind, Walking};
 use cosfly_frames::Seed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -23,11 +23,11 @@ pub struct KindShares {
     #[schemars(range(min = 0.0, max = 1.0))]
     pub push_chair: f64,
     /// People who run, 1.8 to 2.4 times as fast as they would walk; in company they keep to its pace. Default 0.
-    #[serde(skip_serializing_if = "crate::config::is_zero")]
+    #[serde(skip_serializing_if = "is_zero")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub runner: f64,
     /// People who sit on a chair at an edge of the walkable ground and stay there. Default 0.
-    #[serde(skip_serializing_if = "crate::config::is_zero")]
+    #[serde(skip_serializing_if = "is_zero")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub sitter: f64,
     /// People in a wheelchair. Default 0.
@@ -53,7 +53,7 @@ impl KindShares {
         ]
     }
 
-    pub(super) fn check(&self) -> Result<(), PedestrianConfigRule> {
+    pub(crate) fn check(&self) -> Result<(), PedestrianConfigRule> {
         for (_, path, share) in self.shares() {
             PedestrianConfigRule::within(path, share, 0.0, 1.0)?;
         }
@@ -67,7 +67,7 @@ impl KindShares {
     }
 
     /// The kind of somebody, drawn from a seed.
-    pub(super) fn draw(&self, seed: &Seed) -> BodyKind {
+    pub fn draw(&self, seed: &Seed) -> BodyKind {
         if self.is_default() {
             return BodyKind::Pedestrian;
         }
@@ -81,10 +81,37 @@ impl KindShares {
 
     /// Distance that the middle of everybody keeps from obstacles, metres: half the length of the longest
     /// kind that is present, at least `of_people`.
-    pub(super) fn clearance_m(&self, of_people: f64) -> f64 {
+    pub(crate) fn clearance_m(&self, of_people: f64) -> f64 {
         let present = self.shares().into_iter().filter(|(.., share)| *share > 0.0);
         let outlines = present.filter_map(|(kind, ..)| kind.row().walking.as_ref()?.outline_m);
         outlines.map(|[length_m, _]| 0.5 * length_m).fold(of_people, f64::max)
+    }
+}
+
+pub(crate) fn is_zero(share: &f64) -> bool {
+    *share == 0.0
+}
+
+/// Size and pace of somebody of a kind, as a share of the speed that the person would have had.
+pub(crate) struct OfKind {
+    pub pace: f64,
+    pub height_m: f64,
+    pub radius_m: f64,
+}
+
+impl OfKind {
+    /// Somebody of a kind who would be so high and wide as a grown person on foot.
+    pub fn drawn(kind: BodyKind, seed: &Seed, height_m: f64, radius_m: f64) -> Self {
+        let as_grown = Self { pace: 1.0, height_m, radius_m };
+        let Some(Walking { heights_m, pace: [slow, fast], outline_m }) = kind.row().walking else { return as_grown };
+        if kind == BodyKind::Pedestrian {
+            return as_grown;
+        }
+        let mut stream = seed.stream("kind size");
+        let pace = stream.uniform(slow, fast);
+        let own_m = heights_m.map_or(height_m, |[low, high]| stream.uniform(low, high));
+        let radius_m = outline_m.map_or(radius_m * own_m / height_m, |[length_m, _]| 0.5 * length_m);
+        Self { pace, height_m: own_m, radius_m }
     }
 }
 
