@@ -1,7 +1,7 @@
 //! Walks on real towns: CARLA's own and a surveyed city. Skipped where the shared data is absent.
 
 use cosfly_domain::{Town, WalkableKind};
-use cosfly_frames::{DVec2, Seed};
+use cosfly_frames::{DVec2, DVec3, Seed};
 use cosfly_maps::{MapConfig, read_town};
 use cosfly_pedestrians::{PedestrianConfig, PedestrianPath, WalkableGrid, walk};
 use shared::shared_input;
@@ -89,4 +89,30 @@ fn our_own_town_is_walked() {
 #[test]
 fn a_town_without_pavements_is_walked_on_its_shoulders() {
     check_town("Town06.xodr, shoulders", shared_input("carla_xodr/Town06.xodr"), &MapConfig::default());
+}
+
+#[test]
+fn who_walks_on_invented_streets_of_a_point_cloud_does_not_sink_into_drawn_ground() {
+    let name = "lidar/test_semis_2021_0382_6565_LA93_IGN69_cropped.laz";
+    let Some(path) = shared_input(name) else { return };
+    let invented = MapConfig { streets: Some(cosfly_maps::Streets::Invented), ..MapConfig::default() };
+    let town = read_town(&std::fs::read(path).unwrap(), &invented, Seed::of_item(1, "town", "town")).unwrap().0;
+    let (drawn, config) = (cosfly_town::GroundIndex::new(&town), PedestrianConfig::default());
+    let grid = WalkableGrid::build(&town, &config).unwrap();
+    let (mut places, mut below, mut above) = (0, 0, 0);
+    for polygon in &town.walkable {
+        let middle = polygon.outline_in_world.iter().sum::<DVec3>() / polygon.outline_in_world.len() as f64;
+        let inwards = |corner: &DVec3| [0.2, 0.5, 0.8].map(|share| corner.lerp(middle, share));
+        for place in polygon.outline_in_world.iter().flat_map(inwards) {
+            let Some((_, z)) = grid.ground().at(place.truncate(), place.z) else { continue };
+            let Some(seen) = drawn.ground_seen(place.truncate().extend(z), 1.5) else { continue };
+            places += 1;
+            below += usize::from(seen.height_m - z > 0.08);
+            above += usize::from(z - seen.height_m > 0.3);
+        }
+    }
+    assert!(
+        places > 10_000 && 400 * below < places && 400 * above < places,
+        "{below} below, {above} above, of {places}"
+    );
 }

@@ -10,7 +10,7 @@ const HEADROOM_M: f64 = 2.2;
 const LOWEST_M: f64 = 0.1;
 /// Longest side of a plaza, metres.
 const LONGEST_M: f64 = 24.0;
-/// Largest distance of the ground from a plaza, metres.
+/// Largest distance of the ground from a plaza unless somebody asks for less, metres.
 const MOST_BEND_M: f64 = 0.2;
 /// Steepest ground to walk on, rise over run.
 pub const STEEPEST: f64 = 0.35;
@@ -21,6 +21,8 @@ pub struct OpenGround {
     low: DVec2,
     /// Side of a cell, metres.
     pub cell_m: f64,
+    /// Largest distance of the ground from a plaza, metres.
+    pub most_bend_m: f64,
     columns: usize,
     rows: usize,
     /// By rows.
@@ -36,7 +38,7 @@ impl OpenGround {
         let size = (high - low).max(DVec2::ZERO);
         let cell_m = narrowest_m.max((size.element_product() / MOST_CELLS).sqrt()).max(size.max_element() / 1e5);
         let [columns, rows] = size.to_array().map(|side_m| (side_m / cell_m).ceil().max(1.0) as usize);
-        Self { low, cell_m, columns, rows, is_open: vec![false; columns * rows] }
+        Self { low, cell_m, most_bend_m: MOST_BEND_M, columns, rows, is_open: vec![false; columns * rows] }
     }
 
     /// Middle of a cell.
@@ -134,7 +136,7 @@ impl OpenGround {
         let across = (left.z - low.z).abs().max((high.z - right.z).abs()) / (height * self.cell_m);
         let bends = [(0.5, 0.5), (0.5, 0.0), (0.5, 1.0), (0.0, 0.5), (1.0, 0.5)].into_iter().any(|(x, y)| {
             let between = low.lerp(right, x).lerp(left.lerp(high, x), y);
-            at(x, y).is_none_or(|point| (point.z - between.z).abs() > MOST_BEND_M)
+            at(x, y).is_none_or(|point| (point.z - between.z).abs() > self.most_bend_m)
         });
         (!bends && slope.max(across) <= STEEPEST).then_some([low, right, high, left])
     }
