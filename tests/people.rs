@@ -50,6 +50,30 @@ pub fn rows(dataset: &Path, table: &str, text: &str, number: &str) -> Vec<(Strin
 }
 
 #[test]
+fn each_kind_of_person_is_a_target_without_traffic_and_one_more_walker_makes_only_itself() {
+    let kinds = "child = 0.1, elder = 0.15, runner = 0.15, sitter = 0.1, wheelchair = 0.2, push_chair = 0.15, dog_walker = 0.15";
+    let changed = RECIPE.replacen("count = 3", &format!("count = 12\nkinds = {{ {kinds} }}"), 1).replacen(
+        "\"perturbed\"] }\nwidth = 96\nheight = 54",
+        "\"perturbed\"], others = \"walkers\" }\nwidth = 192\nheight = 108",
+        1,
+    );
+    assert!(changed.contains("others"));
+    let street = Street::with(&changed, &map());
+    made(&street, &[]);
+    let dataset = street.dataset();
+    cosfly(&["verify", dataset.to_str().expect("UTF-8")]).within(street.path()).run_ok();
+    let kinds = |table: &str, kind: &str, number: &str| {
+        rows(&dataset, table, kind, number).into_iter().map(|(kind, _)| kind).collect::<BTreeSet<_>>()
+    };
+    let targets = kinds("trajectories", "target_kind", "frames");
+    assert!(targets.len() > 5 && targets.contains("wheelchair"), "{targets:?}");
+    let seen = kinds("bodies", "kind", "instance");
+    assert!(seen.len() > 3 && seen.is_subset(&targets), "{seen:?} beside {targets:?}");
+    let more = made(&street, &["stages.walkers.count=13"]);
+    assert_eq!((more["walkers"], more["expert"], more["perturbed"]), (1, 1, 1), "{more:?}");
+}
+
+#[test]
 fn a_crowd_is_in_pictures_and_tables_and_another_one_plans_nothing_anew() {
     let street = street();
     let first = made(&street, &[]);

@@ -245,7 +245,7 @@ impl<'a> GoalChain<'a> {
 mod tests {
     use super::*;
     use crate::grid::test_towns::{rectangle, streets, town};
-    use crate::{AreaConfig, AreaPicture};
+    use crate::{AreaConfig, AreaPicture, KindShares};
     use std::sync::Arc;
 
     fn seed(item: u32) -> Seed {
@@ -396,6 +396,31 @@ mod tests {
         let walked = walk(&grid, &config, seed(0)).unwrap();
         check_walk(&town, &grid, &config, &walked);
         assert!(walked.track.length_m() > 60.0, "{}", walked.track.length_m());
+    }
+
+    #[test]
+    fn every_kind_has_its_size_pace_and_clearance_and_sitters_stay() {
+        let town = streets();
+        let share = |kinds: KindShares| PedestrianConfig { kinds, ..PedestrianConfig::default() };
+        let mean = |kinds: KindShares| {
+            let config = share(kinds);
+            let grid = WalkableGrid::build(&town, &config).unwrap();
+            let walks: Vec<_> = (0..6).map(|item| walk(&grid, &config, seed(item)).unwrap().track).collect();
+            walks.iter().for_each(|track| assert_eq!(track.len(), config.frames as usize));
+            [TargetTrack::length_m, |it| it.height_m, |it| it.radius_m]
+                .map(|of: fn(&TargetTrack) -> f64| walks.iter().map(of).sum::<f64>() / 6.0)
+        };
+        let grown = mean(KindShares::default());
+        let runner = mean(KindShares { runner: 1.0, ..KindShares::default() });
+        assert!(runner[0] > 1.5 * grown[0] && runner[1..] == grown[1..], "{runner:?} {grown:?}");
+        let elder = mean(KindShares { elder: 1.0, ..KindShares::default() });
+        assert!(elder[0] < 0.85 * grown[0] && elder[1] < grown[1], "{elder:?} {grown:?}");
+        let push_chair = mean(KindShares { push_chair: 1.0, ..KindShares::default() });
+        assert!(push_chair[0] > 30.0 && push_chair[2] == 0.75, "{push_chair:?}");
+        let sitter = mean(KindShares { sitter: 1.0, ..KindShares::default() });
+        assert!(sitter[0] == 0.0 && sitter[2] == 0.525, "{sitter:?}");
+        let config = share(KindShares { child: 0.6, elder: 0.6, ..KindShares::default() });
+        assert_eq!(WalkableGrid::build(&town, &config).unwrap_err().to_string().split('`').nth(1), Some("kinds"));
     }
 
     #[test]
