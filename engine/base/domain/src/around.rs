@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub struct Followed {
     /// Name of the traffic; empty for a walk of its own.
     pub traffic: String,
-    /// Number of the body in the traffic, or of the walk.
+    /// Number of the body in the traffic.
     pub number: u32,
     /// Kind, size and looks.
     pub plan: BodyPlan,

@@ -110,7 +110,16 @@ impl<T: DeserializeOwned> Kind<T> {
     /// # Errors
     /// Those of [`Self::decode`].
     pub fn find(&self, inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Option<T>> {
-        self.is_in(artifact).then(|| self.read(inputs, artifact)).transpose()
+        self.find_called(self.blob, inputs, artifact)
+    }
+
+    /// Value in the blob of an artifact that has another name there; `None` where there is no such blob.
+    ///
+    /// # Errors
+    /// Those of [`Self::decode`].
+    pub fn find_called(&self, name: &str, inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Option<T>> {
+        let is_there = artifact.blobs.contains_key(name);
+        is_there.then(|| self.decode(&inputs.read(artifact, name)?)).transpose()
     }
 }
 

@@ -23,13 +23,12 @@ impl Crowd {
     pub fn around(inputs: &Inputs<'_>) -> Result<Self> {
         let Some(artifact) = inputs.all(nearby::NAME).first() else { return Ok(Self::default()) };
         let read = |NearbyWalk { instance, walk_id }: NearbyWalk| {
-            let blob = nearby::walk_blob(&walk_id);
-            let walk = inputs.decoded(artifact, &blob, |bytes| artifacts::WALK.decode(bytes))?;
-            let walk: &PedestrianPath = &walk;
-            let body = nearby::body_blob(&walk_id);
-            let followed =
-                artifact.blobs.contains_key(&*body).then(|| artifacts::FOLLOWED.decode(&inputs.read(artifact, &body)?));
-            Ok(member(instance, walk_id, Person::on(walk, followed.transpose()?.as_ref())?))
+            let [walk, body] =
+                [artifacts::WALK.blob, artifacts::FOLLOWED.blob].map(|it| nearby::walk_blob(it, &walk_id));
+            let walk = inputs.decoded(artifact, &walk, |bytes| artifacts::WALK.decode(bytes))?;
+            let (walk, followed): (&PedestrianPath, _) =
+                (&walk, artifacts::FOLLOWED.find_called(&body, inputs, artifact)?);
+            Ok(member(instance, walk_id, Person::on(walk, followed.as_ref())?))
         };
         let mut members: Vec<_> =
             artifacts::NEARBY.read(inputs, artifact)?.into_iter().map(read).collect::<Result<_>>()?;

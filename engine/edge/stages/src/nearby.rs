@@ -55,9 +55,9 @@ pub fn port() -> InputPort {
     InputPort { optional: true, source: PortSource::Sibling(NAME), ..ports::each(NAME, NEARBY, false, doc) }
 }
 
-/// Name of the blob of an item that holds the walk of a person.
-pub fn walk_blob(walk_id: &str) -> String {
-    format!("walk-{walk_id}")
+/// Name of the blob of an item that holds a blob of the walk of a person.
+pub fn walk_blob(blob: &str, walk_id: &str) -> String {
+    format!("{blob}-{walk_id}")
 }
 
 struct NearbyStage {
@@ -135,11 +135,6 @@ pub fn add(
     Ok(())
 }
 
-/// Name of the blob of an item that holds who is on the walk of a person, where that is not a grown person on foot.
-pub fn body_blob(walk_id: &str) -> String {
-    format!("body-{walk_id}")
-}
-
 /// Writes those who are near; `stages` are the items at port `others` by stage.
 fn put(outputs: &mut dyn OutputSink, near: &[Candidate], stages: &[&[Artifact]]) -> Result<()> {
     let mut people = vec![];
@@ -149,10 +144,10 @@ fn put(outputs: &mut dyn OutputSink, near: &[Candidate], stages: &[&[Artifact]])
             Origin::Walk(stage, item) => {
                 let artifact = &stages[*stage][*item];
                 let walk_id = artifact.name.to_string();
-                outputs.link(&walk_blob(&walk_id), artifact.blobs[artifacts::WALK.blob])?;
-                if let Some(body) = artifact.blobs.get(artifacts::FOLLOWED.blob) {
-                    outputs.link(&body_blob(&walk_id), *body)?;
-                }
+                let blobs = [artifacts::WALK.blob, artifacts::FOLLOWED.blob].into_iter();
+                blobs
+                    .filter_map(|name| Some((name, artifact.blobs.get(name)?)))
+                    .try_for_each(|(name, blob)| outputs.link(&walk_blob(name, &walk_id), *blob))?;
                 people.push(NearbyWalk { instance: *instance, walk_id });
             }
             Origin::Body(traffic, number) => NearbyBodies::add(&mut bodies, traffic, *number, *instance),

@@ -4,12 +4,11 @@ use crate::ports::{self, WALK};
 use crate::single;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
-use cosfly_domain::{BodyKind, Followed};
 use cosfly_experts::area_pictures;
 use cosfly_experts::artifacts;
 use cosfly_experts::memo::Memo;
 use cosfly_experts::world::{link_town, world};
-use cosfly_film::body_on;
+use cosfly_film::followed_on;
 use cosfly_frames::Seed;
 use cosfly_pedestrians::{PedestrianConfig, PedestrianError, WalkableGrid, walk};
 use cosfly_stage::parameters;
@@ -80,10 +79,8 @@ impl Stage for PedestrianStage {
         let path = walk(&grid, &self.config, Seed(context.seed)).map_err(refused)?;
         artifacts::WALK.put(outputs, &path)?;
         let kind = self.config.kinds.draw(&Seed(context.seed));
-        if kind != BodyKind::Pedestrian {
-            let number = context.id.item.number().unwrap_or(0) as u32;
-            let plan = body_on(&path.track, kind)?;
-            artifacts::FOLLOWED.put(outputs, &Followed { traffic: String::new(), number, plan })?;
+        if let Some(followed) = followed_on(&path.track, kind)? {
+            artifacts::FOLLOWED.put(outputs, &followed)?;
         }
         link_town(inputs, outputs)?;
         Ok(Produced::default())

@@ -29,7 +29,7 @@ impl Person {
     pub fn on(walk: &PedestrianPath, followed: Option<&Followed>) -> Result<Self> {
         let track = walk.track.clone();
         let plan = match followed {
-            None => body_on(&track, BodyKind::Pedestrian)?,
+            None => plan_of(&track, BodyKind::Pedestrian, walk_seed(&track)?),
             Some(followed) => followed.plan.clone(),
         };
         let (walked_m, body) = (walked_m(&track.states), BodyShape::of(plan.kind, plan.size_m));
@@ -123,12 +123,13 @@ impl Person {
     }
 }
 
-/// Properties of somebody of a kind on a walk of their own.
+/// Somebody of a kind on a walk of their own; `None` for a grown person on foot.
 ///
 /// # Errors
 /// Those of [`walk_seed`].
-pub fn body_on(track: &TargetTrack, kind: BodyKind) -> Result<BodyPlan> {
-    Ok(plan_of(track, kind, walk_seed(track)?))
+pub fn followed_on(track: &TargetTrack, kind: BodyKind) -> Result<Option<Followed>> {
+    let plan = plan_of(track, kind, walk_seed(track)?);
+    Ok((kind != BodyKind::Pedestrian).then_some(Followed { traffic: String::new(), number: 0, plan }))
 }
 
 fn plan_of(track: &TargetTrack, kind: BodyKind, looks: Seed) -> BodyPlan {
