@@ -110,16 +110,7 @@ impl<T: DeserializeOwned> Kind<T> {
     /// # Errors
     /// Those of [`Self::decode`].
     pub fn find(&self, inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Option<T>> {
-        self.find_called(self.blob, inputs, artifact)
-    }
-
-    /// Value in the blob of an artifact that has another name there; `None` where there is no such blob.
-    ///
-    /// # Errors
-    /// Those of [`Self::decode`].
-    pub fn find_called(&self, name: &str, inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Option<T>> {
-        let is_there = artifact.blobs.contains_key(name);
-        is_there.then(|| self.decode(&inputs.read(artifact, name)?)).transpose()
+        self.is_in(artifact).then(|| self.read(inputs, artifact)).transpose()
     }
 }
 
@@ -131,4 +122,33 @@ impl<T: DeserializeOwned + Any + Send + Sync> Kind<T> {
     pub fn shared(&self, inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Arc<T>> {
         inputs.decoded(artifact, self.blob, |bytes| self.decode(bytes))
     }
+}
+
+/// Links somebody's walk, and who that is, under names with the walk's id.
+///
+/// # Errors
+/// Those of the disk.
+pub fn link_walk(walk: &Artifact, walk_id: &str, outputs: &mut dyn OutputSink) -> Result<()> {
+    for name in [WALK.blob, FOLLOWED.blob] {
+        if let Some(blob) = walk.blobs.get(name) {
+            outputs.link(&format!("{name}-{walk_id}"), *blob)?;
+        }
+    }
+    Ok(())
+}
+
+/// What [`link_walk`] linked; `None` for a grown person on foot.
+///
+/// # Errors
+/// Those of [`Kind::read`].
+pub fn linked_walk(
+    inputs: &Inputs<'_>,
+    artifact: &Artifact,
+    walk_id: &str,
+) -> Result<(Arc<PedestrianPath>, Option<Followed>)> {
+    let name = |blob: &str| format!("{blob}-{walk_id}");
+    let walk = inputs.decoded(artifact, &name(WALK.blob), |bytes| WALK.decode(bytes))?;
+    let followed = name(FOLLOWED.blob);
+    let is_there = artifact.blobs.contains_key(&*followed);
+    Ok((walk, is_there.then(|| FOLLOWED.decode(&inputs.read(artifact, &followed)?)).transpose()?))
 }

@@ -8,7 +8,6 @@ use cosfly_figures::Bystander;
 use cosfly_film::nearby::{NearbyBodies, NearbyWalk};
 use cosfly_film::{Person, Shooting};
 use cosfly_flight::World;
-use cosfly_pedestrians::PedestrianPath;
 use cosfly_schema::{OtherBody, Sighting};
 use cosfly_stage::{Artifact, Inputs};
 
@@ -23,12 +22,8 @@ impl Crowd {
     pub fn around(inputs: &Inputs<'_>) -> Result<Self> {
         let Some(artifact) = inputs.all(nearby::NAME).first() else { return Ok(Self::default()) };
         let read = |NearbyWalk { instance, walk_id }: NearbyWalk| {
-            let [walk, body] =
-                [artifacts::WALK.blob, artifacts::FOLLOWED.blob].map(|it| nearby::walk_blob(it, &walk_id));
-            let walk = inputs.decoded(artifact, &walk, |bytes| artifacts::WALK.decode(bytes))?;
-            let (walk, followed): (&PedestrianPath, _) =
-                (&walk, artifacts::FOLLOWED.find_called(&body, inputs, artifact)?);
-            Ok(member(instance, walk_id, Person::on(walk, followed.as_ref())?))
+            let (walk, followed) = artifacts::linked_walk(inputs, artifact, &walk_id)?;
+            Ok(member(instance, walk_id, Person::on(&walk, followed.as_ref())?))
         };
         let mut members: Vec<_> =
             artifacts::NEARBY.read(inputs, artifact)?.into_iter().map(read).collect::<Result<_>>()?;

@@ -55,11 +55,6 @@ pub fn port() -> InputPort {
     InputPort { optional: true, source: PortSource::Sibling(NAME), ..ports::each(NAME, NEARBY, false, doc) }
 }
 
-/// Name of the blob of an item that holds a blob of the walk of a person.
-pub fn walk_blob(blob: &str, walk_id: &str) -> String {
-    format!("{blob}-{walk_id}")
-}
-
 struct NearbyStage {
     config: RenderConfig,
     properties: StageProperties,
@@ -144,10 +139,7 @@ fn put(outputs: &mut dyn OutputSink, near: &[Candidate], stages: &[&[Artifact]])
             Origin::Walk(stage, item) => {
                 let artifact = &stages[*stage][*item];
                 let walk_id = artifact.name.to_string();
-                let blobs = [artifacts::WALK.blob, artifacts::FOLLOWED.blob].into_iter();
-                blobs
-                    .filter_map(|name| Some((name, artifact.blobs.get(name)?)))
-                    .try_for_each(|(name, blob)| outputs.link(&walk_blob(name, &walk_id), *blob))?;
+                artifacts::link_walk(artifact, &walk_id, outputs)?;
                 people.push(NearbyWalk { instance: *instance, walk_id });
             }
             Origin::Body(traffic, number) => NearbyBodies::add(&mut bodies, traffic, *number, *instance),
