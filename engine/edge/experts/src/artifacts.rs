@@ -149,6 +149,6 @@ pub fn linked_walk(
     let name = |blob: &str| format!("{blob}-{walk_id}");
     let walk = inputs.decoded(artifact, &name(WALK.blob), |bytes| WALK.decode(bytes))?;
     let followed = name(FOLLOWED.blob);
-    let is_there = artifact.blobs.contains_key(&*followed);
+    let is_there = artifact.blobs.contains_key(&followed);
     Ok((walk, is_there.then(|| FOLLOWED.decode(&inputs.read(artifact, &followed)?)).transpose()?))
 }
