@@ -3,6 +3,7 @@
 import base64
 import io
 import json
+import socket
 import subprocess
 import sys
 import threading
@@ -68,7 +69,10 @@ def test_the_model_gets_task_state_pictures_and_schema(model):
     assert "target" not in told and "above_ground_m 13.00" in told
 
 
-@pytest.mark.parametrize("wrong", ["", "{", "no idea", '{"a": 1}', RIGHT.replace("1.5", "NaN"), RIGHT.replace("1.5", "true"), RIGHT.replace("1.5", "1e9")])
+WRONG_NUMBERS = [RIGHT.replace("1.5", number) for number in ("NaN", "true", "1e9", "1" * 400)]
+
+
+@pytest.mark.parametrize("wrong", ["", "{", "no idea", '{"a": 1}', '{"a": ' + "[" * 100000 + "}", *WRONG_NUMBERS])
 def test_malformed_answers_are_named_asked_again_and_counted(model, wrong, monkeypatch, tmp_path, capsys):
     texts, asked = model
     monkeypatch.setenv("COSFLY_VLM_LOG", str(tmp_path / "log"))
@@ -83,6 +87,29 @@ def test_malformed_answers_are_named_asked_again_and_counted(model, wrong, monke
     assert [bool(line["malformed"]) for line in lines] == [True, False, True, True]
     with pytest.raises(ValueError, match="20 malformed answers in a row"):
         for _ in range(20):
+            cosfly.vlm.act(observation())
+
+
+def test_a_key_with_a_line_end_is_refused_and_not_printed(model, monkeypatch):
+    monkeypatch.setenv("COSFLY_API_KEY", f"{KEY}\n")
+    with pytest.raises(SystemExit, match="the end of a line") as ended:
+        cosfly.vlm.act(observation())
+    assert KEY not in str(ended.value)
+
+
+@pytest.mark.parametrize("told", [b"hello\n", b"HTTP/1.1 200 OK\r\nContent-Length: 900\r\n\r\n{", b""])
+def test_a_server_that_is_none_is_named(told, monkeypatch):
+    with socket.create_server(("127.0.0.1", 0)) as server:
+
+        def answer():
+            connection, _ = server.accept()
+            with connection:
+                connection.recv(1 << 20)
+                connection.sendall(told)
+
+        threading.Thread(target=answer, daemon=True).start()
+        monkeypatch.setenv("COSFLY_VLM_URL", f"http://127.0.0.1:{server.getsockname()[1]}/v1")
+        with pytest.raises(SystemExit, match="cannot be asked"):
             cosfly.vlm.act(observation())
 
 

@@ -10,7 +10,10 @@ type IsIt = fn(&[u8]) -> bool;
 const RELATIVES: &[(IsIt, &str)] = &[
     (|head| head.starts_with(b"BZh"), "the file is packed by bzip2: unpack it with `bunzip2`"),
     (|head| head.starts_with(b"PK\x03\x04"), "the file is a ZIP archive: unpack it"),
-    (|head| head.starts_with(&[0x1f, 0x8b]), "the file is packed by gzip: unpack it with `gunzip`"),
+    (
+        |head| head.starts_with(&[0x1f, 0x8b]),
+        "the file is packed by gzip: unpack it with `gunzip`; splats (`.spz`) are no map but `splats.source` of stage `render`",
+    ),
     (
         |head| holds(head, "<net ") && (holds(head, "<location") || holds(head, "net_file.xsd")),
         "the file is a net of SUMO: `netconvert -s FILE --opendrive-output town.xodr` makes OpenDRIVE of it",

@@ -43,8 +43,9 @@ impl Format for Vlm {
         if !source.flights().any(is_seen) {
             let (size, input) = (window.size(), options.input.word());
             let message = format!("no chosen flight is {input} and has the {size} frames of a window");
-            return Err(Diagnostic::new("export-windows", Fault::Recipe, message)
-                .hint("choose with `--input`, `--history` and `--horizon`"));
+            return Err(Diagnostic::new("export-windows", Fault::Recipe, message).hint(
+                "choose with `--input`, `--history` and `--horizon`; a stage `perturb` makes perturbed flights",
+            ));
         }
         let language = options.instructions.language;
         let mut instructions = InstructionReader::of(source.dataset, language.of_windows(), window.history)?;

@@ -8,6 +8,9 @@ use crate::rows::{PlacedFlight, PlacedFrame};
 const AGREEMENT: f64 = 0.05;
 /// A body of fewer pixels has an outline of so many of them that pixel centres miss several of 100 points.
 const FEW_PIXELS: f64 = 300.0;
+/// Pixels that an outline explains, of a body of few pixels.
+const MOST_MISSED_PX: f64 = 10.0;
+const BOXES: &str = "rays meet boxes, within which roofs and crowns are drawn";
 
 /// Compares the two shares in all frames of a flight that show the target.
 pub fn compare(file: &str, flight: &PlacedFlight, frames: &[PlacedFrame], report: &mut VerifyReport) {
@@ -37,18 +40,21 @@ fn reason(flight: &PlacedFlight, frame: &PlacedFrame, gap: f64) -> String {
     };
     let (width, height) = (f64::from(flight.camera.width), f64::from(flight.camera.height));
     let at_edge = box_px[0] <= 0.0 || box_px[1] <= 0.0 || box_px[2] >= width || box_px[3] >= height;
+    let is_behind_boxes = gap < 0.0 && frame.occluder_instance != 0;
     if frame.clearance_m <= 0.0 {
         "the drone is inside of an obstacle, which no ray leaves".into()
     } else if gap > 0.0 && frame.occluder_instance == 0 {
         "the ground hides a part of it, which rays pass".into()
+    } else if is_behind_boxes && -gap * all_px > MOST_MISSED_PX {
+        BOXES.into()
     } else if all_px < FEW_PIXELS {
         format!("the body has {all_px:.0} pixels, of which one is {:.1} points", 100.0 / all_px.max(1.0))
     } else if at_edge {
         "the body is cut off by the picture's edge".into()
     } else if !flight.lens.is_none() {
         "the lens bends the picture, rays are straight".into()
-    } else if gap < 0.0 && frame.occluder_instance != 0 {
-        "rays meet boxes, within which roofs and crowns are drawn".into()
+    } else if is_behind_boxes {
+        BOXES.into()
     } else {
         "no reason is known".into()
     }

@@ -9,8 +9,8 @@ more; if that fails, too, the drone stops, and the answer counts as malformed. `
 from __future__ import annotations
 
 import base64
+import http.client
 import json
-import math
 import os
 import re
 import struct
@@ -87,13 +87,13 @@ def _read(text: str) -> tuple[list[float] | None, str]:
     found = re.search(r"\{[^{}]*\}", text)
     try:
         answer = json.loads(found[0]) if found else None
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         return None, f"the object is no JSON ({error})"
     if not isinstance(answer, dict):
         return None, "there is no JSON object in it"
     numbers = [answer.get(name) for name in ACTION]
     for name, number in zip(ACTION, numbers):
-        if isinstance(number, bool) or not isinstance(number, (int, float)) or not math.isfinite(number) or abs(number) > 1e6:
+        if isinstance(number, bool) or not isinstance(number, (int, float)) or not abs(number) <= 1e6:
             return None, f"`{name}` is {json.dumps(number)[:40]}; it is a number"
     return [float(number) for number in numbers if number is not None], ""
 
@@ -106,6 +106,8 @@ def _ask(messages: list[dict[str, Any]]) -> str:
     body = {"model": model, "temperature": 0, "seed": 0, "max_tokens": 400, "messages": messages, "response_format": form}
     headers = {"Content-Type": "application/json"}
     if key := os.environ.get("COSFLY_API_KEY"):
+        if not (key.isascii() and key.isprintable()):
+            raise SystemExit("COSFLY_API_KEY holds what no key has, such as the end of a line")
         headers["Authorization"] = f"Bearer {key}"
     try:
         request = urllib.request.Request(address, json.dumps(body).encode(), headers)
@@ -114,7 +116,7 @@ def _ask(messages: list[dict[str, Any]]) -> str:
         return str(told["choices"][0]["message"]["content"] or "")
     except urllib.error.HTTPError as error:
         raise SystemExit(f"{address} answers with status {error.code}: {error.read(300).decode('utf-8', 'replace')}") from None
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError, http.client.HTTPException) as error:
         raise SystemExit(f"{address} cannot be asked: {error}; COSFLY_VLM_URL names an OpenAI-compatible server") from None
     except (KeyError, IndexError, TypeError):
         raise SystemExit(f"{address} gave no `choices[0].message.content`: it is no OpenAI-compatible server") from None
