@@ -27,7 +27,7 @@ fn a_dataset_is_scored_exported_and_made_again_as_the_refusals_say() {
     refused(
         &street,
         &[&export[..], &["--history", "20"]].concat(),
-        "choose with `--input`, `--history` and `--horizon`",
+        "choose with `--input`, `--history` and `--horizon`; a stage `perturb` makes perturbed flights",
     );
     helps(&street, &[&export[..], &["--input", "expert", "--history", "2", "--horizon", "2"]].concat());
 
