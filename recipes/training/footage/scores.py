@@ -219,6 +219,9 @@ def report(detector: Detector, tracker: Tracker, dataset: Path, people: List[Seq
     sets = {"own pictures, a town not seen in training": own_pictures(detector, dataset)}
     for sequence in people:
         numbers = [it for it in range(0, len(sequence), every) if sequence.boxes[it, 3] - sequence.boxes[it, 1] >= LEAST_PX]
+        if not numbers:
+            sets[f"{sequence.name}: no person of {LEAST_PX} pixels and more"] = {}
+            continue
         pictures, boxes = [sequence.picture(it) for it in numbers], sequence.boxes[numbers]
         stretches = STRETCHES * np.array(numbers) // len(sequence)
         row = in_squares(detector, pictures, boxes, stretches)
@@ -253,4 +256,4 @@ def own_pictures(detector: Detector, dataset: Path, most: int = 200) -> Dict[str
             boxes.append(target.box)
             flights.append(sample["trajectory_id"])
             others.append(np.array([it.box for it in of_frame if it.body != "target" and it.is_person]).reshape(-1, 4))
-    return in_squares(detector, pictures, np.array(boxes), np.array(flights), others)
+    return in_squares(detector, pictures, np.array(boxes), np.array(flights), others) if pictures else {}
