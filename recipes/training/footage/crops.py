@@ -13,6 +13,7 @@ from torch.nn import functional
 KEPT, SIDE = 320, 160  # sides of the squares in memory and of the networks' input, pixels
 HEIGHT = 40.0  # longer side of the body in the middle of a square in memory, pixels
 LEAST_PX, LEAST_PIXELS, LEAST_SHOWN = 14.0, 40, 0.3  # who shows less is neither looked for nor an error
+VEHICLES = {"bicycle", "motorcycle", "car", "van", "truck", "bus", "drone"}  # all other kinds of bodies are people
 Box = Tuple[float, float, float, float]  # left, top, right, bottom edges, pixels
 
 
@@ -27,7 +28,6 @@ class Squares(NamedTuple):
     pictures: Tensor  # (squares, 3, KEPT, KEPT), uint8
     around: List[List[Seen]]  # who is in each square, in its pixels
     bodies: List[Tuple[str, str]]  # flight and body in the middle; "" where the square is anywhere
-    frames: np.ndarray
 
 
 def cut(picture: Image.Image, middle: Tuple[float, float], side: float, pixels: int) -> Tuple[np.ndarray, Tuple[float, float, float]]:
@@ -52,7 +52,7 @@ def seen_in(dataset: Any) -> Dict[Tuple[str, int], List[Seen]]:
                 is_target = name == "frames"
                 shown = rest[0] if is_target else pixels / max(area, 1.0) * 2  # a whole person fills half of the box, or nearly
                 is_clear = pixels >= LEAST_PIXELS and shown >= LEAST_SHOWN and longer >= LEAST_PX
-                body, is_person = ("target", True) if is_target else (str(rest[0]), rest[1] == "pedestrian")
+                body, is_person = ("target", True) if is_target else (str(rest[0]), rest[1] not in VEHICLES)
                 seen.setdefault((str(flight), int(frame)), []).append(Seen(body, tuple(map(float, box)), is_person, bool(is_clear)))
     return seen
 
@@ -61,7 +61,8 @@ def squares_of(dataset: Any, per_frame: int, seed: int) -> Squares:
     """Squares of each frame: around the target and around others who are seen clearly, `per_frame` in all, and one anywhere."""
     draws, seen = np.random.default_rng(seed), seen_in(dataset)
     pictures = torch.empty((len(dataset) * (per_frame + 1), 3, KEPT, KEPT), dtype=torch.uint8)
-    around, bodies, frames = [], [], []
+    around: List[List[Seen]] = []
+    bodies: List[Tuple[str, str]] = []
     for number in range(len(dataset)):
         sample = dataset[number]
         place = (sample["trajectory_id"], int(sample["frame"]))
@@ -79,13 +80,12 @@ def squares_of(dataset: Any, per_frame: int, seed: int) -> Squares:
                 break
             square, (x, y, scale) = cut(picture, middle, side, KEPT)
             moved = [other._replace(box=tuple((edge - (x, y)[place % 2]) * scale for place, edge in enumerate(other.box))) for other in seen[place]]
-            pictures[len(frames)] = torch.from_numpy(np.array(square)).permute(2, 0, 1)
+            pictures[len(bodies)] = torch.from_numpy(np.array(square)).permute(2, 0, 1)
             around.append([other for other in moved if other.box[2] > 0 and other.box[3] > 0 and other.box[0] < KEPT and other.box[1] < KEPT])
             bodies.append((place[0], body))
-            frames.append(place[1])
-    if not frames:
+    if not bodies:
         raise SystemExit("footage: the dataset shows nobody clearly")
-    return Squares(pictures[: len(frames)], around, bodies, np.array(frames))
+    return Squares(pictures[: len(bodies)], around, bodies)
 
 
 def in_reach(box: Box) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Callable, List, Tuple
+from typing import Callable, Dict, List, Tuple
 
 import numpy as np
 import torch
@@ -174,7 +174,7 @@ class LessonOfTracker:
     """Pairs of squares around one body; in one of five, the body looked for is another one, which is not there."""
 
     def __init__(self, squares: Squares) -> None:
-        self.squares, self.of_body = squares, {}
+        self.of_body: Dict[Tuple[str, str], List[int]] = {}
         for row, body in enumerate(squares.bodies):
             if body[1]:
                 self.of_body.setdefault(body, []).append(row)
