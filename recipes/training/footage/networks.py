@@ -7,6 +7,7 @@ from typing import Callable, Dict, List, Tuple
 
 import numpy as np
 import torch
+from boxes import overlaps
 from crops import HEIGHT, KEPT, SIDE, Squares, coloured, moved, views
 from torch import Tensor, nn
 from torch.nn import functional
@@ -85,13 +86,6 @@ def peaks(found: Tensor, least: float) -> np.ndarray:
     left, top, right, bottom = found[1:, rows, columns].clamp(max=6).exp()
     edges = [columns + 0.5 - left, rows + 0.5 - top, columns + 0.5 + right, rows + 0.5 + bottom]
     return torch.stack([certainty[rows, columns], *(CELL * it for it in edges)], dim=1).numpy()
-
-
-def overlaps(box: np.ndarray, boxes: np.ndarray) -> np.ndarray:
-    low, high = np.maximum(boxes[:, :2], box[:2]), np.minimum(boxes[:, 2:], box[2:])
-    common = np.prod(np.clip(high - low, 0, None), axis=1)
-    area = lambda of: np.prod(np.clip(of[..., 2:] - of[..., :2], 0, None), axis=-1)
-    return common / np.maximum(area(boxes) + area(box) - common, 1e-9)
 
 
 def distinct(found: np.ndarray, overlap: float = 0.35) -> np.ndarray:

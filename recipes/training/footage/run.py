@@ -13,10 +13,12 @@ import argparse
 import hashlib
 import json
 import subprocess
+import sys
 from pathlib import Path
 from typing import Dict
 
 HERE = Path(__file__).resolve().parent
+sys.path.append(str(HERE.parent))  # boxes.py
 # What `--without` leaves out of the recipe, one at a time.
 PARTS = {
     "optics": ["stages.frames.optics.preset=ideal"],

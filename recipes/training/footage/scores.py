@@ -7,8 +7,9 @@ from typing import Any, Callable, Dict, List, NamedTuple, Optional
 
 import numpy as np
 import torch
+from boxes import average_precision, matches, overlaps
 from crops import SIDE, as_input, cut, seen_in
-from networks import CELL, TEMPLATE, Detector, Tracker, distinct, overlaps, peaks
+from networks import CELL, TEMPLATE, Detector, Tracker, distinct, peaks
 from PIL import Image
 
 RIGHT, SURE, FAINT = 0.4, 0.5, 0.03  # overlap of a right box; certainty of a sure one; certainty below which nothing is a box
@@ -122,26 +123,10 @@ def in_whole(detector: Detector, picture: Image.Image) -> np.ndarray:
     return distinct(np.concatenate(found))
 
 
-def average_precision(found: List[np.ndarray], boxes: List[np.ndarray], overlap: float) -> Callable[[np.ndarray], float]:
-    """Area below precision over recall of chosen frames, each person found once."""
-    marked = []
-    for of_frame, people in zip(found, boxes):
-        is_free, right = np.ones(len(people), bool), []
-        for row in of_frame:
-            common = np.where(is_free, overlaps(row[1:], people), 0) if len(people) else np.zeros(1)
-            right.append(common.max() >= overlap)
-            if right[-1]:
-                is_free[common.argmax()] = False
-        marked.append((of_frame[:, 0], np.array(right, bool)))
-
-    def of(chosen: np.ndarray) -> float:
-        certainty, right = (np.concatenate([marked[it][place] for it in chosen]) for place in (0, 1))
-        right = right[np.argsort(-certainty, kind="stable")].astype(float)
-        precision = right.cumsum() / np.arange(1, len(right) + 1)
-        best = np.maximum.accumulate(precision[::-1])[::-1]
-        return float((best * right).sum() / max(1, sum(len(boxes[it]) for it in chosen)))
-
-    return of
+def precision_of(found: List[np.ndarray], boxes: np.ndarray, overlap: float) -> Callable[[np.ndarray], float]:
+    """Average precision of chosen frames, each of which has one person."""
+    marked = [matches(of_frame, box[None], overlap) for of_frame, box in zip(found, boxes)]
+    return lambda chosen: average_precision([it for frame in chosen for it in marked[frame]], len(chosen))
 
 
 class Follower:
@@ -227,8 +212,7 @@ def report(detector: Detector, tracker: Tracker, dataset: Path, people: List[Seq
         row = in_squares(detector, pictures, boxes, stretches)
         found = [in_whole(detector, picture) for picture in pictures]
         for overlap in (RIGHT, 0.5):
-            precision = average_precision(found, [box[None] for box in boxes], overlap)
-            row[f"average precision in whole frames, overlap {overlap}"] = interval(precision, stretches)
+            row[f"average precision in whole frames, overlap {overlap}"] = interval(precision_of(found, boxes, overlap), stretches)
         sets[f"{sequence.name}, {len(numbers)} frames"] = row
     lines = ["# Networks trained on cosfly alone", "", "## Detector of people", ""]
     columns = list(dict.fromkeys(name for row in sets.values() for name in row))

@@ -8,6 +8,7 @@ from typing import Dict, List, Tuple
 
 import numpy as np
 import torch
+from boxes import average_precision, matches
 from torch import Tensor, nn
 from torch.nn import functional
 
@@ -100,30 +101,6 @@ def peaks(people: Tensor) -> np.ndarray:
     return torch.stack([certainty[rows, columns], *(4 * it for it in corners)], dim=1).cpu().numpy()
 
 
-def matches(found: np.ndarray, boxes: Boxes) -> List[Tuple[float, bool]]:
-    """Certainty of each found box, best first, and whether it is the first that overlaps a person by half."""
-    is_free, marked = np.ones(len(boxes), bool), []
-    for certainty, *box in found[np.argsort(-found[:, 0])]:
-        low, high = np.maximum(boxes[:, :2], box[:2]), np.minimum(boxes[:, 2:], box[2:])
-        common = np.prod(np.clip(high - low, 0, None), axis=1)
-        union = np.prod(boxes[:, 2:] - boxes[:, :2], axis=1) + (box[2] - box[0]) * (box[3] - box[1]) - common
-        overlap = np.where(is_free, common / np.maximum(union, 1e-6), 0)
-        is_right = len(boxes) > 0 and overlap.max() >= 0.5
-        if is_right:
-            is_free[overlap.argmax()] = False
-        marked.append((float(certainty), bool(is_right)))
-    return marked
-
-
-def average_precision(marked: List[Tuple[float, bool]], people: int) -> float:
-    right = np.array([it[1] for it in sorted(marked, key=lambda it: -it[0])], float)
-    if not people or not len(right):
-        return 0.0
-    precision = right.cumsum() / np.arange(1, len(right) + 1)
-    best = np.maximum.accumulate(precision[::-1])[::-1]
-    return 100 * float((best * right).sum() / people)
-
-
 def scene_scores(pack: Pack, lessons: np.ndarray, judged: np.ndarray, flights: np.ndarray, steps: int, seed: int) -> Dict[str, Score]:
     """Scores on the judged frames, each with its interval over flights; `flights` has the flight of each judged frame."""
     torch.manual_seed(seed)
@@ -162,7 +139,7 @@ def scene_scores(pack: Pack, lessons: np.ndarray, judged: np.ndarray, flights: n
             counts.append(len(boxes))
     table, counts = np.array(frames), np.array(counts)
     own = [np.flatnonzero(flights == it) for it in np.unique(flights)]
-    of = lambda rows: [*table[rows].mean(axis=0), average_precision([it for row in rows for it in found[row]], counts[rows].sum())]
+    of = lambda rows: [*table[rows].mean(axis=0), 100 * average_precision([it for row in rows for it in found[row]], counts[rows].sum())]
     resampled = [of(np.concatenate([own[it] for it in draws.integers(len(own), size=len(own))])) for _ in range(200)]
     low, high = np.percentile(resampled, [2.5, 97.5], axis=0)
     return {name: tuple(map(float, it)) for name, *it in zip(METRICS, of(np.arange(len(judged))), low, high)}

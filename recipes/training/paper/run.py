@@ -28,6 +28,7 @@ try:
 except ImportError:
     raise SystemExit("torch is missing: `apt-get install python3-torch libopenblas0` on Debian and Ubuntu, `pip install torch` elsewhere") from None
 
+sys.path.append(str(Path(__file__).resolve().parents[1]))  # boxes.py
 import report
 from rows import PERTURBED, EXPERT, ROWS, ZERO, PaperWindows, Row, trained
 
