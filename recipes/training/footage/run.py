@@ -31,6 +31,12 @@ PARTS = {
 }
 
 
+def counted(text: str) -> int:
+    if not text.isdigit() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"`{text}` is no whole number from 1 on")
+    return int(text)
+
+
 def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     add = parser.add_argument
@@ -41,14 +47,14 @@ def arguments() -> argparse.Namespace:
     add("--others", **sequence, help="the same for a sequence that follows anything else: for the tracker alone")
     add("--without", choices=sorted(PARTS), help="leave a part of the recipe out, to see what it is good for")
     add("--set", action="append", default=[], metavar="KEY=VALUE", help="change the recipe, as in `cosfly run`")
-    add("--steps", type=int, default=2000, help="steps of the detector, twice those of the tracker, which begins with its weights (default: 2000)")
-    add("--per-frame", type=int, default=3, help="bodies around which squares are cut from each picture (default: 3)")
-    add("--every", type=int, default=4, help="score the detector on every n-th picture of a sequence (default: 4)")
+    add("--steps", type=counted, default=2000, help="steps of the detector, twice those of the tracker, which begins with its weights (default: 2000)")
+    add("--per-frame", type=counted, default=3, help="bodies around which squares are cut from each picture (default: 3)")
+    add("--every", type=counted, default=4, help="score the detector on every n-th picture of a sequence (default: 4)")
     add("--seed", type=int, default=1)
-    add("--threads", type=int, default=1, help="threads of torch: other numbers give other last bits (default: 1)")
+    add("--threads", type=counted, default=1, help="threads of torch: other numbers give other last bits (default: 1)")
     options = parser.parse_args()
     for sequence in options.people + options.others:
-        if len(sequence) not in (2, 3) or (len(sequence) == 3 and not sequence[2].isdigit()):
+        if len(sequence) not in (2, 3) or (len(sequence) == 3 and not (sequence[2].isdigit() and int(sequence[2]))):
             parser.error(f"a sequence is FRAMES BOXES [FIRST], not {' '.join(sequence)}")
     return options
 
@@ -56,7 +62,11 @@ def arguments() -> argparse.Namespace:
 def data(options: argparse.Namespace, out: Path) -> Path:
     sets = [part for pair in [*(PARTS[options.without] if options.without else []), *options.set] for part in ("--set", pair)]
     command = [options.cosfly, "run", str(HERE / "data.toml"), "--out", str(out / "data"), "--store", str(options.out / "store"), *sets]
-    if subprocess.run(command).returncode:
+    try:
+        code = subprocess.run(command).returncode
+    except OSError as error:
+        raise SystemExit(f"footage: {options.cosfly} cannot be run: {error.strerror}; `--cosfly` names the program") from None
+    if code:
         raise SystemExit("footage: cosfly failed; its words are above")
     return out / "data"
 

@@ -30,7 +30,7 @@ class Sequence:
             missing = file if folder.is_dir() else folder
             raise SystemExit(f"footage: {missing} is not there; a sequence is a folder of frames and a text file of boxes")
         self.name, self.boxes = file.stem, []
-        for number, line in enumerate(file.read_text().splitlines(), 1):
+        for number, line in enumerate(file.read_text(errors="replace").splitlines(), 1):
             try:
                 left, top, wide, high = map(float, line.replace(",", " ").split())
             except ValueError:
@@ -44,9 +44,14 @@ class Sequence:
         self.boxes = np.array(self.boxes)
         if np.isnan(self.boxes[0]).any():
             raise SystemExit(f"footage: {file}:1: the first line has no box to follow")
+        for number in range(len(self)):
+            self.picture(number)  # a broken one is told before hours of training
 
     def picture(self, number: int) -> Image.Image:
-        return Image.open(self.pictures[number]).convert("RGB")
+        try:
+            return Image.open(self.pictures[number]).convert("RGB")
+        except OSError as error:
+            raise SystemExit(f"footage: {self.pictures[number]} cannot be read: {error}") from None
 
     def __len__(self) -> int:
         return len(self.boxes)
