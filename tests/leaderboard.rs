@@ -119,6 +119,30 @@ fn entries_are_ranked_within_what_was_verified_and_others_are_listed_with_the_re
 }
 
 #[test]
+fn copies_of_an_entry_share_its_rank_and_say_so() {
+    let (street, bundle) = board();
+    for name in ["a copy", "one more"] {
+        let mut copy = bundle.clone();
+        copy.card.policy.name = name.to_owned();
+        copy.card.policy.kind = "socket".to_owned();
+        copy.card.policy.baseline = None;
+        let path = street.path().join(format!("board/{name}.jsonl.zst"));
+        std::fs::write(path, copy.bytes().expect("bytes")).expect("written");
+    }
+    let board = table(street.path());
+    let ranked = &board["suites"][0]["ranked"];
+    let mut ranks: Vec<(&str, u64, &str)> = (ranked.as_array().expect("a list").iter())
+        .map(|it| (it["file"].as_str(), it["rank"].as_u64(), it["flies_as"]["file"].as_str().unwrap_or_default()))
+        .map(|(file, rank, alike)| (file.expect("a name"), rank.expect("a rank"), alike))
+        .collect();
+    ranks.sort_unstable();
+    let copies = [("a copy", 1, "follow"), ("follow", 1, "a copy"), ("hold", 1, ""), ("one more", 1, "a copy")];
+    assert_eq!(ranks, copies, "{board:#}");
+    let told = leaderboard(street.path(), &[]).stdout;
+    assert!(told.contains("flies 3 of 3 episodes exactly as the entry `follow`"), "{told}");
+}
+
+#[test]
 fn an_experts_actions_are_no_entry_of_another_name() {
     let (street, _) = board();
     let path = street.path().join("board/expert.jsonl.zst");

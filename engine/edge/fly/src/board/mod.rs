@@ -4,6 +4,7 @@
 //! * [`Entry`], with the [`Notes`] of its maker, and what it [proves](Proof).
 //! * [`page`](fn@page), [`json`], [`told`]: the board for browsers, programs, terminals.
 
+mod alike;
 mod entry;
 mod judge;
 mod notes;

@@ -1,7 +1,7 @@
 //! The page of a board: one file in HTML that opens offline, without a script.
 
 use super::standing::{Board, Contest, Refused, Standing};
-use super::table::differing;
+use super::table::{alike, differing};
 use crate::results::{METRICS, Metric, MetricSummary, cell, ending, worst};
 use cosfly_plot::text::escaped;
 use cosfly_report::{Section, document};
@@ -118,6 +118,9 @@ fn line(standing: &Standing) -> String {
     let mut html = format!("<tr><th scope=\"row\">{rank}{}", name(standing));
     if let Some(about) = &entry.notes.about {
         let _ = write!(html, "<br><small>{}</small>", escaped(about));
+    }
+    if let Some(words) = alike(standing) {
+        let _ = write!(html, "<br><small>{}</small>", escaped(&words));
     }
     html.push_str("</th>");
     let behind = standing.behind.as_ref().map_or("-".to_owned(), |it| {

@@ -1,5 +1,6 @@
 //! [`Board`]: entries by what they flew, ranked within what was verified.
 
+use super::alike::alike;
 use super::entry::{Entry, Proof};
 use crate::compare::{MetricDifference, difference, pairs};
 use crate::flight::Row;
@@ -58,8 +59,12 @@ pub struct Class {
 pub struct Standing {
     /// The entry.
     pub entry: Entry,
-    /// Rank among the entries that it is listed with; equal rates have equal ranks.
+    /// Rank among the entries that it is listed with; equal rates have equal ranks, and entries that fly alike share the best of theirs.
     pub rank: Option<usize>,
+    /// Entries that fly more than half of the episodes alike have the same number.
+    pub group: usize,
+    /// File of another entry that flies more than half of the episodes alike, and the number of these episodes.
+    pub alike: Option<(String, usize)>,
     /// Metrics, in the order of `METRICS`.
     pub scores: Vec<MetricSummary>,
     /// Tracking rate, minus that of the first that it is listed with, over pairs of episodes.
@@ -101,7 +106,13 @@ impl Board {
 impl Contest {
     fn of(entries: Vec<Entry>) -> Option<Self> {
         let (suite, ground) = entries.first().map(|first| (first.suite.clone(), first.card.ground()))?;
+        let found = alike(&entries.iter().map(|entry| entry.rows.as_slice()).collect::<Vec<_>>());
+        let files: Vec<String> = entries.iter().map(|entry| entry.file.clone()).collect();
         let mut standings: Vec<Standing> = entries.into_iter().map(standing).collect();
+        for (standing, found) in standings.iter_mut().zip(found) {
+            standing.group = found.group;
+            standing.alike = found.closest.map(|(other, episodes)| (files[other].clone(), episodes));
+        }
         standings.sort_by(|a, b| b.rate().total_cmp(&a.rate()).then_with(|| a.entry.file.cmp(&b.entry.file)));
         let (claimed, verified): (Vec<_>, Vec<_>) =
             standings.into_iter().partition(|it| matches!(it.entry.proof, Proof::Claimed(_)));
@@ -124,20 +135,33 @@ impl Contest {
     }
 }
 
-/// Gives ranks, and the distance from the first.
+/// Gives ranks to entries in the order of their rates, and the distance from the first. A group of entries that fly alike takes one place.
 fn rank(ranked: &mut [Standing]) {
-    let rates: Vec<f64> = ranked.iter().map(Standing::rate).collect();
+    let places = places(&ranked.iter().map(|it| (it.group, it.rate())).collect::<Vec<_>>());
     let Some(first) = ranked.first().map(|first| first.entry.rows.clone()) else { return };
     for (at, standing) in ranked.iter_mut().enumerate() {
-        standing.rank = rates.iter().position(|rate| rate.total_cmp(&rates[at]).is_eq()).map(|above| above + 1);
+        standing.rank = Some(places[at]);
         standing.behind = (at > 0).then(|| difference(&METRICS[0], &pairs(&first, &standing.entry.rows))).flatten();
     }
+}
+
+/// Ranks of groups and rates, the highest rate first: each has that of the best of its group, and a group takes one place.
+fn places(ranked: &[(usize, f64)]) -> Vec<usize> {
+    let mut best: Vec<(usize, f64)> = vec![];
+    for &(group, rate) in ranked {
+        if best.iter().all(|&(other, _)| other != group) {
+            best.push((group, rate));
+        }
+    }
+    let higher = |rate: f64| best.iter().filter(|(_, other)| *other > rate).count();
+    let of_group = |group: usize| best.iter().find(|(other, _)| *other == group).map_or(0, |&(_, rate)| higher(rate));
+    ranked.iter().map(|&(group, _)| 1 + of_group(group)).collect()
 }
 
 fn standing(entry: Entry) -> Standing {
     let scores = summary(&entry.rows.iter().collect::<Vec<_>>());
     let groups = groups(&entry.rows);
-    Standing { entry, rank: None, scores, behind: None, groups }
+    Standing { entry, rank: None, group: 0, alike: None, scores, behind: None, groups }
 }
 
 /// Mean tracking rate by stratum of the suite, where there are several, and by thirds of the episodes, from those that the expert's
@@ -157,4 +181,16 @@ fn groups(rows: &[Row]) -> Vec<(String, f64)> {
         groups.extend(thirds.map(|(name, third)| (name.to_owned(), mean(&ordered[end(third)..end(third + 1)]))));
     }
     groups
+}
+
+#[cfg(test)]
+mod tests {
+    use super::places;
+
+    #[test]
+    fn a_group_takes_one_place_and_equal_rates_share_one() {
+        let ranked = [(0, 0.9), (0, 0.9), (3, 0.8), (4, 0.8), (0, 0.7), (5, 0.6)];
+        assert_eq!(places(&ranked), [1, 1, 2, 2, 1, 4]);
+        assert_eq!(places(&[]), [0; 0]);
+    }
 }

@@ -32,7 +32,7 @@ fn of_standing(it: &Standing) -> Value {
     let groups: Map<String, Value> = it.groups.iter().map(|(name, rate)| (name.clone(), json!(rate))).collect();
     let notes = &it.entry.notes;
     json!({
-        "rank": it.rank, "file": it.entry.file, "policy": policy.name, "version": policy.version, "kind": policy.kind,
+        "rank": it.rank, "flies_as": it.alike.as_ref().map(|(file, episodes)| json!({ "file": file, "episodes": episodes })), "file": it.entry.file, "policy": policy.name, "version": policy.version, "kind": policy.kind,
         "proof": it.entry.proof.word(), "differs": it.entry.proof.differs(), "sees": it.entry.sees.words,
         "latency": it.entry.card.latency(), "scores": of_summaries(&it.scores), "behind_first": behind,
         "tracking_rate_by_group": groups, "licence": notes.licence, "link": notes.link, "about": notes.about,
@@ -49,6 +49,12 @@ pub fn differing(it: &Standing) -> String {
     }
 }
 
+/// The entry that it flies alike with, in words.
+pub fn alike(it: &Standing) -> Option<String> {
+    let (file, episodes) = it.alike.as_ref()?;
+    Some(format!("flies {episodes} of {} episodes exactly as the entry `{}`", it.entry.rows.len(), one_line(file)))
+}
+
 /// The board, for terminals.
 pub fn told(board: &Board) -> String {
     let mut text = String::new();
@@ -60,6 +66,9 @@ pub fn told(board: &Board) -> String {
             let (rate, decimals) = (it.rate(), METRICS[0].decimals);
             let (word, sees) = (it.entry.proof.word(), one_line(&it.entry.sees.words));
             let _ = writeln!(text, "{rank:>4}  {rate:.decimals$}  {word:<8}  {name} (sees {sees})");
+            if let Some(words) = alike(it) {
+                let _ = writeln!(text, "      {words}");
+            }
             if let Some(first) = it.entry.proof.differs().first() {
                 let _ = writeln!(text, "      {}: {}", differing(it), one_line(first));
             }
