@@ -126,6 +126,25 @@ fn a_camera_with_an_offset_films_between_the_steps() {
 }
 
 #[test]
+fn texts_of_flights_that_no_camera_films_frame_by_frame_are_judged_by_what_is_known() {
+    let street =
+        filmed_by("[stages.frames.cameras.front]\nevery = 2\n[stages.frames.cameras.slow]\nevery = 3\noffset_s = 0.2");
+    assert_eq!(ran(&street, &[], "frames"), 12);
+    let dataset = street.dataset();
+    assert_eq!(column(&dataset, "trajectories", "camera_every").concat().replace(['2', '3'], ""), "");
+    let doctor = |more: &[&str]| {
+        cosfly(&[&["doctor", dataset.to_str().expect("UTF-8")], more].concat()).within(street.path()).run().stdout
+    };
+    let own = doctor(&[]);
+    assert!(!own.contains("caption-mismatch") && own.contains("100.0 % true"), "{own}");
+    let line = r#"{"trajectory_id": "expert-p00000-front", "language": "en", "text": "TEXT"}"#;
+    let text = "Follow the pedestrian from about 90 metres, with the camera 5 degrees down, for 90 seconds.";
+    std::fs::write(street.path().join("texts.jsonl"), line.replace("TEXT", text)).expect("written");
+    let given = doctor(&["--texts", "texts.jsonl"]);
+    assert!(given.contains("caption-mismatch"), "{given}");
+}
+
+#[test]
 fn cards_and_checks_know_what_a_wide_lens_sees() {
     let street = filmed_by(
         "[stages.frames.cameras.around]\nwidth = 128\nheight = 64\nlens = { model = \"equirectangular\" }\n\

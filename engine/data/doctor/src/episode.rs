@@ -44,6 +44,8 @@ pub struct ExaminedEpisode {
     pub looks: Vec<ExaminedLook>,
     /// Facts of the whole flight, of which the episode's frames are a part: those of the film that texts speak of.
     pub whole: Option<Facts>,
+    /// Whether the frames are a part of the flight's, and its other frames are unknown.
+    pub is_part: bool,
     /// Language code and text of the instructions.
     pub captions: Vec<(String, String)>,
     /// Parked vehicles: middle (m), half lengths (m) and yaw (radians).

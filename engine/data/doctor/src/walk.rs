@@ -4,7 +4,7 @@
 //! the first such place behind it; and the same with 5 m. What is clear by both chords is a turn; what one of them hints at may be one.
 
 use crate::ExaminedEpisode;
-use cosfly_captions::{Compass, Facts, TargetStop, Turn, TurnKind};
+use cosfly_captions::{Compass, Facts, LeftOut, TargetStop, Turn, TurnKind};
 use cosfly_frames::{DVec2, DVec3, real};
 
 /// Lengths of the chords, metres.
@@ -56,6 +56,22 @@ pub fn facts_of(episode: &ExaminedEpisode) -> Option<Facts> {
     let (turns, doubtful_turns) = if walks { walk.turns() } else { (vec![], vec![]) };
     let walking_s = episode.dt_s * stands.iter().skip(1).filter(|stands| !**stands).count() as f64;
     let mean = |value: &dyn Fn(usize) -> f64| (0..feet.len()).map(value).sum::<f64>() / feet.len() as f64;
+    let distance_m = |frame: usize| moments[frame].drone.position_in_world.distance(feet[frame]);
+    let pitch_down_deg = |frame: usize| -moments[frame].drone.pitch_rad.to_degrees();
+    let altitude_m = |frame: usize| moments[frame].drone.position_in_world.z - feet[frame].z;
+    // Three standard errors of a mean over frames that stand for those which are left out; more of few frames, much as Student's t.
+    let count = feet.len() as f64;
+    let error = |value: &dyn Fn(usize) -> f64| {
+        let middle = mean(value);
+        let variance = mean(&|frame| (value(frame) - middle).powi(2)) * count / (count - 1.0).max(1.0);
+        3.0 * (1.0 + 6.0 / count) * (variance / count).sqrt()
+    };
+    let left_out = episode.is_part.then(|| LeftOut {
+        time_s: episode.dt_s,
+        distance_m: error(&distance_m),
+        pitch_deg: error(&pitch_down_deg),
+        altitude_m: error(&altitude_m),
+    });
     Some(Facts {
         walks,
         start_direction: Compass::of_yaw_rad(walk.ahead_rad(0, CHORDS_M[0]).unwrap_or(facing_rad)),
@@ -68,11 +84,12 @@ pub fn facts_of(episode: &ExaminedEpisode) -> Option<Facts> {
         duration_s: episode.dt_s * (feet.len() - 1) as f64,
         way_m,
         walking_speed_mps: if walks && walking_s > 0.0 { way_m / walking_s } else { 0.0 },
-        distance_m: mean(&|frame| moments[frame].drone.position_in_world.distance(feet[frame])),
-        pitch_down_deg: mean(&|frame| -moments[frame].drone.pitch_rad.to_degrees()),
-        altitude_m: mean(&|frame| moments[frame].drone.position_in_world.z - feet[frame].z),
+        distance_m: mean(&distance_m),
+        pitch_down_deg: mean(&pitch_down_deg),
+        altitude_m: mean(&altitude_m),
         visibility: mean(&|frame| moments[frame].visible.unwrap_or_default()),
         wear: episode.wear,
+        left_out,
     })
 }
 

@@ -43,6 +43,8 @@ pub struct PublishedFlight {
     pub dt_s: f64,
     /// Time of the first frame after the beginning of the flight, nanoseconds: the offset of the camera.
     pub begins_ns: u64,
+    /// Frames of the flight from one picture to the next.
+    pub every: u32,
     /// Name of the camera, where several film each flight.
     pub camera_name: Option<String>,
     /// Ideal camera of all frames, without its lens.
@@ -112,6 +114,7 @@ impl PublishedFlight {
             frames,
             dt_s,
             begins_ns: (begins_s * 1e9).round() as u64,
+            every: rows.get_or(Trajectories::camera_every, row, 1)?,
             camera_name: rows.get_or(Trajectories::camera_name, row, None)?,
             camera: Camera {
                 width: rows.get(Trajectories::camera_width_px, row)?,

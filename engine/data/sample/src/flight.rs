@@ -186,6 +186,7 @@ pub fn flight_filmed_by(camera: Camera, pedestrian: usize, role: Role) -> Sample
         bodies_3d: vec![],
         pair: (role == Role::Perturbed).then(|| PairInfo { expert_id: format!("expert-p{pedestrian:05}") }),
         begins_ns: 0,
+        every: 1,
     };
     let caption = |language: &str, text: &str| CaptionRecord {
         language: language.into(),

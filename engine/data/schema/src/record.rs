@@ -8,7 +8,7 @@ use cosfly_domain::{
     Weather,
 };
 use cosfly_frames::{Pose, TargetState};
-use serde::{Deserialize, Deserializer, Serialize, de::DeserializeOwned};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 /// Role of a flight behind a pedestrian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -150,17 +150,10 @@ pub struct RenderedTrajectory {
     pub bodies_3d: Vec<BodyInSpace>,
     /// Relation to the expert; set for perturbed flights.
     pub pair: Option<PairInfo>,
-    /// Time of the first picture after the beginning of the flight, nanoseconds: the offset of the camera. Not written where it is 0.
-    #[serde(skip_serializing_if = "is_zero", deserialize_with = "zero_at_the_end")]
+    /// Time of the first picture after the beginning of the flight, nanoseconds: the offset of the camera.
     pub begins_ns: u64,
-}
-
-fn is_zero(offset: &u64) -> bool {
-    *offset == 0
-}
-
-fn zero_at_the_end<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<u64, D::Error> {
-    Ok(u64::deserialize(from).unwrap_or_default())
+    /// Frames of the flight from one picture to the next.
+    pub every: u32,
 }
 
 impl RenderedTrajectory {

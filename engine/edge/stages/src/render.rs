@@ -71,7 +71,7 @@ impl StageKind for Render {
         let bare = RenderConfig { models: vec![], season: None, mesh: None, splats: None, ..config.clone() };
         let nearby = nearby::part(&bare, canonical(&bare, parameters::canonical(&bare)), items.clone());
         let properties = StageProperties {
-            version: 29,
+            version: 30,
             parameters: canonical(&config, parameters::joined_canonical(&config, &encoding, pictures::ENCODING)),
             sources,
             inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],
@@ -190,6 +190,7 @@ impl Stage for RenderStage {
             bodies_3d: seen.bodies_3d,
             pair,
             begins_ns: config.begins_ns,
+            every: config.every,
         };
         outputs.put("index", &record.to_bytes())?;
         Ok(Produced { notes, warnings, rejected: None })

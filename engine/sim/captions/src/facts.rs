@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 /// Slower than this is standing, m/s.
 const STANDING_MPS: f64 = 0.05;
 /// Shorter pauses are not worth a word, seconds.
-const LEAST_STOP_S: f64 = 1.0;
+pub(crate) const LEAST_STOP_S: f64 = 1.0;
 /// A target that moves less than this in all stands, metres.
 const LEAST_WALK_M: f64 = 1.0;
 /// Way at the start and at the end of a walk that gives their directions, metres.
@@ -84,6 +84,22 @@ pub struct Facts {
     pub visibility: f64,
     /// Clothes of the target; `None` where they are unknown: texts do not name them, and claims about them are not judged.
     pub wear: Option<Wear>,
+    /// What the frames leave out, where they are a part of the flight's.
+    #[serde(default)]
+    pub left_out: Option<LeftOut>,
+}
+
+/// What facts of every n-th frame may miss of the whole flight's.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LeftOut {
+    /// Time at either end of the flight, and between frames, seconds.
+    pub time_s: f64,
+    /// Error of the mean distance, metres.
+    pub distance_m: f64,
+    /// Error of the mean pitch, degrees.
+    pub pitch_deg: f64,
+    /// Error of the mean height, metres.
+    pub altitude_m: f64,
 }
 
 impl Facts {
@@ -162,6 +178,7 @@ pub fn facts(trajectory: &Trajectory) -> Facts {
             / count,
         visibility: trajectory.visibility.iter().sum::<f64>() / trajectory.visibility.len().max(1) as f64,
         wear: None,
+        left_out: None,
     }
 }
 

@@ -39,6 +39,6 @@ pub use config::{CaptionConfig, Style, Writer};
 pub use cosfly_claims::{Compass, Language, TurnKind};
 pub use coverage::{Coverage, coverage};
 pub use diversity::{Diversity, diversity};
-pub use facts::{Facts, FirstTurn, TargetStop, Wear, facts};
+pub use facts::{Facts, FirstTurn, LeftOut, TargetStop, Wear, facts};
 pub use facts_in_words::facts_in_words;
 pub use turns::Turn;

@@ -15,7 +15,6 @@ use cosfly_metrics::drawn_ground::DrawnGround;
 use cosfly_read::{BoxInWorld, CaptionReader, FrameRow, LoggedFrame, PublishedDataset, PublishedFlight};
 use cosfly_schema::tables::Pairs;
 use rayon::prelude::*;
-use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
@@ -128,8 +127,10 @@ fn read(
     let mut together: Vec<Read> = vec![];
     let outcome = dataset.walk(&|_| true, &mut |flight, rows| {
         let mut episode = episode(flight, &rows);
-        let is_part = flight.camera_name.is_some();
-        episode.whole = whole.get(&flight.flight_id).filter(|_| is_part).cloned();
+        if !is_whole(flight) {
+            episode.whole = whole.get(&flight.flight_id).cloned();
+            episode.is_part = true;
+        }
         let place = dataset.place(&flight.trajectory_id).unwrap_or_default();
         episode.captions =
             captions.at(dataset, place)?.iter().map(|it| (it.language.clone(), it.text.clone())).collect();
@@ -144,22 +145,23 @@ fn read(
     outcome
 }
 
-/// Facts of the flights of which a camera films a part, by the film of another camera that begins first and has the most frames: texts
-/// are of the whole flight.
+/// Whether a film has every frame of its flight.
+fn is_whole(flight: &PublishedFlight) -> bool {
+    flight.every == 1 && flight.begins_ns == 0
+}
+
+/// Facts of the flights of which a camera films a part, by the film of another camera that has every frame, where there is one: texts are
+/// of the whole flight.
 fn facts_of_whole_flights(dataset: &PublishedDataset) -> Result<BTreeMap<String, Facts>> {
-    let mut films: BTreeMap<&str, Vec<&PublishedFlight>> = BTreeMap::new();
-    for flight in dataset.flights().iter().filter(|flight| flight.camera_name.is_some()) {
-        films.entry(&flight.flight_id).or_default().push(flight);
-    }
-    films.retain(|_, films| films.iter().any(|film| film.times() != films[0].times()));
-    let longest = |films: &Vec<&PublishedFlight>| {
-        let first = films.iter().min_by_key(|film| (film.begins_ns, Reverse(film.frames)));
-        first.map(|film| film.trajectory_id.clone())
-    };
-    let wanted: BTreeSet<String> = films.values().filter_map(longest).collect();
+    let (films, parts): (Vec<_>, Vec<_>) = dataset.flights().iter().partition(|flight| is_whole(flight));
+    let parts: BTreeSet<&str> = parts.into_iter().map(|film| film.flight_id.as_str()).collect();
+    let wanted: BTreeMap<&str, &str> = (films.into_iter().filter(|film| parts.contains(film.flight_id.as_str())))
+        .map(|film| (film.flight_id.as_str(), film.trajectory_id.as_str()))
+        .collect();
+    let wanted: BTreeSet<&str> = wanted.into_values().collect();
     let mut facts = BTreeMap::new();
     if !wanted.is_empty() {
-        dataset.walk(&|flight| wanted.contains(&flight.trajectory_id), &mut |flight, rows| {
+        dataset.walk(&|flight| wanted.contains(flight.trajectory_id.as_str()), &mut |flight, rows| {
             facts.extend(facts_of(&episode(flight, &rows)).map(|facts| (flight.flight_id.clone(), facts)));
             Ok(())
         })?;

@@ -7,6 +7,8 @@ use crate::tables::column::columns;
 columns! { Trajectories::CAMERA of DatasetItem;
     /// Name of the camera, where several film each flight (`cameras` of the stage `render`); null for a single one.
     camera_name: Option<String> = |item, _| item.record.camera_name.clone();
+    /// Frames of the flight from one picture to the next; 1 where every frame is filmed.
+    camera_every: u32 = |item, _| item.record.every;
     /// Width of the images.
     camera_width_px: u32 = |item, _| item.record.camera.width;
     /// Height of the images.
