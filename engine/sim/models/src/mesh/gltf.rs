@@ -174,8 +174,9 @@ mod tests {
                 &format!(r#","textures":[{{"source":0,"sampler":0}}],"samplers":[{{"wrapS":33071}}]{more}"#),
             )
             .expect("a mesh");
-            let look =
-                mesh.look_at(&mesh.triangles[0], [1.0, 0.0, 0.0], 1.0).map(|share| (100.0 * share).round() as i32);
+            let look = mesh
+                .look_at(&mesh.triangles[0], [1.0, 0.0, 0.0], [[0.0; 2]; 2])
+                .map(|share| (100.0 * share).round() as i32);
             (look, mesh.remarks)
         };
         let required = r#","extensionsRequired":["KHR_materials_pbrSpecularGlossiness"]"#;

@@ -238,7 +238,7 @@ mod tests {
         assert_eq!((mesh.format, mesh.triangles.len(), mesh.materials.len()), ("OBJ", 3, 2));
         assert_eq!(mesh.triangles[0].texture_places[..2], [[0.0, 1.0], [1.0, 1.0]]);
         // The middle of a red, a green and a blue corner, through a red material.
-        let look = mesh.look_at(&mesh.triangles[0], [1.0 / 3.0; 3], 1.0);
+        let look = mesh.look_at(&mesh.triangles[0], [1.0 / 3.0; 3], [[0.0; 2]; 2]);
         assert!((look[0] - 1.0 / 3.0).abs() < 1e-3 && look[1] == 0.0, "{look:?}");
         assert_eq!(mesh.triangles[2].material, 0);
     }

@@ -5,6 +5,14 @@ use cosfly_frames::real;
 use cosfly_scans::gltf::materials::TextureWrap;
 use std::sync::OnceLock;
 
+/// What a place in a texture changes by from a pixel to the one on its right, and to the one below.
+pub type PixelSides = [[f32; 2]; 2];
+
+/// Width of a probe beside that of what it stands for: between texels, it takes in more than its own width.
+const SHARPNESS: f32 = 0.7;
+/// Most probes of a picture for one pixel.
+const MOST_PROBES: f32 = 16.0;
+
 /// A picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeshTexture {
@@ -68,8 +76,34 @@ impl MeshTexture {
         self.has_holes
     }
 
-    /// Linear colour and opacity at a place (0 to 1 over the picture) for a pixel that covers `texels` of the whole picture a side.
-    pub fn sample(&self, place: [f32; 2], texels: f32) -> [f32; 4] {
+    /// Mean linear colour and opacity of a pixel around a place (0 to 1 over the picture): by probes along its longer side, each
+    /// from the copies whose texels are about as wide as the shorter one.
+    pub fn sample(&self, place: [f32; 2], pixel: PixelSides) -> [f32; 4] {
+        let [width, height] = self.size();
+        let [[ax, ay], [bx, by]] = pixel.map(|[across, down]| [across * width, down * height]);
+        // Singular values of the pixel's sides in texels, and the direction of the larger one.
+        let (xx, xy, yy) = (ax * ax + bx * bx, ax * ay + bx * by, ay * ay + by * by);
+        let (mean, apart) = (0.5 * (xx + yy), (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt());
+        let [long, short] = [mean + apart, mean - apart].map(|it| it.max(0.0).sqrt());
+        let short = SHARPNESS * short;
+        let probes = (long / short.max(1.0)).ceil().clamp(1.0, MOST_PROBES);
+        let texels = short.max(SHARPNESS * long / probes);
+        if !(probes >= 2.0) {
+            return self.sample_square(place, texels);
+        }
+        let (x, y) = if xx > yy { (mean + apart - yy, xy) } else { (xy, mean + apart - xx) };
+        let step = long / (probes * (x * x + y * y).sqrt());
+        let step = [x * step / width, y * step / height];
+        let probe = |number: usize| {
+            let away = number as f32 + 0.5 - 0.5 * probes;
+            self.sample_square([place[0] + away * step[0], place[1] + away * step[1]], texels)
+        };
+        let sum = (0..probes as usize).map(probe).fold([0.0; 4], |sum, own| [0, 1, 2, 3].map(|k| sum[k] + own[k]));
+        sum.map(|sum| sum / probes)
+    }
+
+    /// Between the two copies whose texels are nearest to a square of so many texels of the whole picture a side.
+    fn sample_square(&self, place: [f32; 2], texels: f32) -> [f32; 4] {
         let step = libm::log2f(texels.max(1.0)).min((self.levels.len() - 1) as f32);
         let (fine, share) = (step.floor(), step - step.floor());
         let near = self.levels[fine as usize].sample(place, self.wraps);
@@ -144,19 +178,25 @@ mod tests {
         let picture =
             Picture { width: 4, height: 1, rgb: vec![[0; 3], [255; 3], [0; 3], [255; 3]], alpha: vec![255, 0, 255, 0] };
         let texture = MeshTexture::new(picture.clone(), [TextureWrap::Repeat; 2]);
-        assert_eq!(texture.sample([0.125, 0.5], 1.0), [0.0, 0.0, 0.0, 1.0]);
-        assert_eq!(texture.sample([0.375, 0.5], 1.0), [1.0, 1.0, 1.0, 0.0]);
+        // Pixels that cover a square of the picture.
+        let square = |texels: f32| [[texels / 4.0, 0.0], [0.0, texels]];
+        assert_eq!(texture.sample([0.125, 0.5], square(1.0)), [0.0, 0.0, 0.0, 1.0]);
+        assert_eq!(texture.sample([0.375, 0.5], square(1.0)), [1.0, 1.0, 1.0, 0.0]);
         // Half the light is the code 188, half the opacity 128 of 255.
-        let mean = texture.sample([0.1, 0.1], 1e9);
+        let mean = texture.sample([0.1, 0.1], square(1e9));
         assert!((mean[0] - 0.5).abs() < 5e-3 && (mean[3] - 0.5).abs() < 5e-3, "{mean:?}");
-        assert!(texture.sample([f32::NAN, f32::INFINITY], f32::NAN).iter().all(|it| it.is_finite()));
+        assert!(texture.sample([f32::NAN, f32::INFINITY], square(f32::NAN)).iter().all(|it| it.is_finite()));
         for (wrap, beyond) in [(TextureWrap::Clamp, 1.0), (TextureWrap::Mirror, 1.0), (TextureWrap::Repeat, 0.0)] {
             let texture = MeshTexture::new(picture.clone(), [wrap; 2]);
-            assert_eq!(texture.sample([1.125, 0.5], 1.0)[0], beyond, "{wrap:?}");
+            assert_eq!(texture.sample([1.125, 0.5], square(1.0))[0], beyond, "{wrap:?}");
             // At the edge itself, a repeated picture is between its two sides.
-            assert_eq!(texture.sample([1.0, 0.5], 1.0)[0], if beyond == 1.0 { 1.0 } else { 0.5 }, "{wrap:?}");
-            assert!(texture.sample([-7.3, f32::NAN], 3.0).iter().all(|it| it.is_finite()));
+            assert_eq!(texture.sample([1.0, 0.5], square(1.0))[0], if beyond == 1.0 { 1.0 } else { 0.5 }, "{wrap:?}");
+            assert!(texture.sample([-7.3, f32::NAN], square(3.0)).iter().all(|it| it.is_finite()));
         }
+        // A pixel that is long across covers both columns of a pair, and one that is long down none but its own.
+        let texture = MeshTexture::new(picture, [TextureWrap::Repeat; 2]);
+        assert!((texture.sample([0.25, 0.5], [[0.0, 0.0], [0.5, 0.0]])[0] - 0.5).abs() < 1e-3);
+        assert_eq!(texture.sample([0.375, 0.5], [[0.0, 7.0], [0.01, 0.0]])[0], 1.0);
         assert!((0..=255).all(|own: u8| code(light()[usize::from(own)]) == own));
         assert_eq!((code(-1.0), code(2.0), code(f32::NAN)), (0, 255, 0));
     }

@@ -1,6 +1,6 @@
 //! [`TexturedMesh`]: triangles of a file where they lie in the world, and their looks.
 
-use super::texture::{MeshTexture, light};
+use super::texture::{MeshTexture, PixelSides, light};
 use cosfly_frames::DVec3;
 
 /// Triangles of a file where they lie in the world, and their looks.
@@ -51,8 +51,8 @@ impl TexturedMesh {
         [corners().fold(DVec3::INFINITY, DVec3::min), corners().fold(DVec3::NEG_INFINITY, DVec3::max)]
     }
 
-    /// Linear colour and opacity of a triangle where its corners have these weights, for a pixel that covers `texels` of its texture a side.
-    pub fn look_at(&self, triangle: &MeshTriangle, weights: [f32; 3], texels: f32) -> [f32; 4] {
+    /// Linear colour and opacity of a triangle where its corners have these weights, for a pixel with these sides in its texture.
+    pub fn look_at(&self, triangle: &MeshTriangle, weights: [f32; 3], pixel: PixelSides) -> [f32; 4] {
         let material = &self.materials[triangle.material as usize];
         let mut look = material.colour;
         if triangle.colours != [[u8::MAX; 3]; 3] {
@@ -63,7 +63,7 @@ impl TexturedMesh {
             (0..3).for_each(|channel| look[channel] *= between(channel).clamp(0.0, 1.0));
         }
         if let Some(texture) = material.texture {
-            let own = self.textures[texture as usize].sample(triangle.texture_place(weights), texels);
+            let own = self.textures[texture as usize].sample(triangle.texture_place(weights), pixel);
             (0..4).for_each(|channel| look[channel] *= own[channel]);
         }
         look

@@ -162,6 +162,13 @@ impl Band<'_> {
     }
 }
 
+/// Which of six ways a normal points at most: along which axis, and to which side.
+fn way(normal: [f32; 3]) -> u32 {
+    let length = |axis: &usize| normal[*axis].abs();
+    let axis = (0..3).max_by(|a, b| length(a).total_cmp(&length(b))).unwrap_or(0);
+    2 * axis as u32 + u32::from(normal[axis] > 0.0)
+}
+
 /// The number of a pixel's surface.
 fn surface_of(number: u32, face: &DrawnFace) -> u32 {
     match face.source {
@@ -173,7 +180,8 @@ fn surface_of(number: u32, face: &DrawnFace) -> u32 {
         FaceSource::Figure { first_face, .. } => 0x8200_0000 | (first_face & 0xff_ffff),
         // Textures, not triangles, make what is seen of a model: no edge is smoothed within it.
         FaceSource::Prop { .. } => 0x8300_0000 | (face.instance & 0xff_ffff),
-        FaceSource::Mesh { .. } => 0x8500_0000 | (face.instance & 0xff_ffff),
+        // Of a scan, sides that look elsewhere have edges: roofs, walls, ground.
+        FaceSource::Mesh { .. } => 0x9000_0000 | way(face.normal) << 24 | (face.instance & 0xff_ffff),
         // Round crowns have no edges between the faces of their boxes.
         FaceSource::Crown { .. } => 0x8400_0000 | (face.instance & 0xff_ffff),
         FaceSource::Box { .. } => number & 0x7fff_ffff,

@@ -81,7 +81,7 @@ impl Renderer {
         let face = self.faces.len() as u32;
         match scene.mesh.materials[triangle.material as usize].least_alpha {
             Some(least) => {
-                let surface = MeshSurface::new(&scene.mesh, triangle, (&screen, eye), plane);
+                let surface = MeshSurface::new(triangle, (&screen, eye), plane);
                 let keep = |u, v| surface.look_at(&scene.mesh, u, v)[3] >= least;
                 self.nearest.draw_polygon_where(&screen, (&corners, &plane, bias), face, keep);
             }
@@ -116,8 +116,7 @@ impl Renderer {
                 else {
                     continue;
                 };
-                let surface =
-                    MeshSurface::new(&own.mesh, &own.mesh.triangles[*triangle as usize], (&screen, &eye), *plane);
+                let surface = MeshSurface::new(&own.mesh.triangles[*triangle as usize], (&screen, &eye), *plane);
                 let first = run.start as usize % screen.width;
                 for column in first..first + run.length as usize {
                     let look = surface.look_at(&own.mesh, column as f64 + 0.5, row as f64 + 0.5);
@@ -151,57 +150,41 @@ fn label_lift(label: u8) -> f64 {
 struct MeshSurface<'a> {
     triangle: &'a MeshTriangle,
     plane: PlaneOnScreen,
-    screen: &'a Screen,
-    eye: &'a Eye,
-    corner: DVec3,
-    /// Weights of the second and third corner per metre.
-    per_m: [DVec3; 2],
-    /// Texels of the texture, across and down.
-    size: [f32; 2],
+    /// Weights of the second and third corner at the eye.
+    at_eye: [f64; 2],
+    /// Their change along a pixel's ray for a metre of depth: at pixel (0, 0), more per pixel to the right, and down.
+    along_ray: [DVec3; 2],
+    /// From the first corner's place in the texture to those of the second and third.
+    sides: [[f32; 2]; 2],
 }
 
 impl<'a> MeshSurface<'a> {
-    fn new(
-        mesh: &TexturedMesh,
-        triangle: &'a MeshTriangle,
-        (screen, eye): (&'a Screen, &'a Eye),
-        plane: PlaneOnScreen,
-    ) -> Self {
+    fn new(triangle: &'a MeshTriangle, (screen, eye): (&Screen, &Eye), plane: PlaneOnScreen) -> Self {
         let [a, b, c] = triangle.corners();
         let (along, aside) = (b - a, c - a);
         let normal = along.cross(aside);
         let per_m = [aside.cross(normal), normal.cross(along)].map(|dual| dual / normal.length_squared());
-        let texture = mesh.materials[triangle.material as usize].texture;
-        let size = texture.map_or([0.0; 2], |texture| mesh.textures[texture as usize].size());
-        Self { triangle, plane, screen, eye, corner: a, per_m, size }
-    }
-
-    /// Weights of the corners at pixel coordinates.
-    fn weights(&self, u: f64, v: f64) -> [f32; 3] {
-        let ray = DVec3::new(
-            1.0,
-            (u - self.screen.center_u) / self.screen.focal_px,
-            (self.screen.center_v - v) / self.screen.focal_px,
-        );
-        let point = self.eye.position_in_world + self.eye.world_from_body * ray / self.plane.at(u, v);
-        let [second, third] = self.per_m.map(|dual| dual.dot(point - self.corner));
-        [(1.0 - second - third) as f32, second as f32, third as f32]
+        let [ahead, right, up] = [0, 1, 2].map(|axis| eye.world_from_body.col(axis));
+        let (right, down) = (right / screen.focal_px, -up / screen.focal_px);
+        let first = ahead - right * screen.center_u - down * screen.center_v;
+        let along_ray = per_m.map(|dual| DVec3::new(dual.dot(first), dual.dot(right), dual.dot(down)));
+        let at_eye = per_m.map(|dual| dual.dot(eye.position_in_world - a));
+        let [from, to, other] = triangle.texture_places;
+        let sides = [to, other].map(|there| [0, 1].map(|k| there[k] - from[k]));
+        Self { triangle, plane, at_eye, along_ray, sides }
     }
 
     /// Linear colour and opacity of a pixel, by the part of the texture that it covers.
     fn look_at(&self, mesh: &TexturedMesh, u: f64, v: f64) -> [f32; 4] {
-        let weights = self.weights(u, v);
-        if self.size == [0.0; 2] {
-            return mesh.look_at(self.triangle, weights, 1.0);
-        }
-        let here = self.triangle.texture_place(weights);
-        let texels = |there: [f32; 2]| {
-            let [across, down] = [0, 1].map(|k| (there[k] - here[k]) * self.size[k]);
-            (across * across + down * down).sqrt()
+        let depth_m = 1.0 / self.plane.at(u, v);
+        let rays = self.along_ray.map(|ray| depth_m * (ray.x + ray.y * u + ray.z * v));
+        let [second, third] = [0, 1].map(|k| (self.at_eye[k] + rays[k]) as f32);
+        // What one pixel to the right and one down change.
+        let change = |axis: usize, of_plane: f64| {
+            let of_weights = [0, 1].map(|k| (depth_m * (self.along_ray[k][axis] - rays[k] * of_plane)) as f32);
+            [0, 1].map(|k| of_weights[0] * self.sides[0][k] + of_weights[1] * self.sides[1][k])
         };
-        let right = texels(self.triangle.texture_place(self.weights(u + 1.0, v)));
-        let below = texels(self.triangle.texture_place(self.weights(u, v + 1.0)));
-        // Surfaces seen at a slant stay sharper along than across.
-        mesh.look_at(self.triangle, weights, 0.5 * (right + below).min(4.0 * right.min(below)))
+        let pixel = [change(1, self.plane.across), change(2, self.plane.down)];
+        mesh.look_at(self.triangle, [1.0 - second - third, second, third], pixel)
     }
 }
