@@ -209,19 +209,22 @@ const PACKED_HOUSE: &str = "RFJBQ08CAgEBAAAACAwCCwAAA19LFQEBEP8CNUH/AjVBAwAAAAEA
 #[test]
 fn shapes_that_draco_packed_are_read_and_damaged_ones_refused() {
     let packed = STANDARD.decode(PACKED_HOUSE).unwrap();
-    let file = |packed: &[u8]| {
+    let times = |shapes: usize, packed: &[u8]| {
+        let shape = r#"{"attributes":{"POSITION":1,"TEXCOORD_0":2,"COLOR_0":3},"indices":0,"material":0,
+            "extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":2,"COLOR_0":0,"TEXCOORD_0":1}}}}"#;
         let json = format!(
             r#"{{"asset":{{"version":"2.0"}},"extensionsRequired":["KHR_draco_mesh_compression"],"nodes":[{{"name":"House","mesh":0}}],
             "materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}}],
-            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":1,"TEXCOORD_0":2,"COLOR_0":3}},"indices":0,"material":0,
-            "extensions":{{"KHR_draco_mesh_compression":{{"bufferView":0,"attributes":{{"POSITION":2,"COLOR_0":0,"TEXCOORD_0":1}}}}}}}}]}}],
+            "meshes":[{{"primitives":[{1}]}}],
             "accessors":[{{"componentType":5123,"count":36,"type":"SCALAR"}},{{"componentType":5126,"count":8,"type":"VEC3"}},
             {{"componentType":5126,"count":8,"type":"VEC2"}},{{"componentType":5121,"normalized":true,"count":8,"type":"VEC3"}}],
             "bufferViews":[{{"buffer":0,"byteLength":{0}}}],"buffers":[{{"byteLength":{0}}}]}}"#,
-            packed.len()
+            packed.len(),
+            vec![shape; shapes].join(",")
         );
         glb_of(&json, packed)
     };
+    let file = |packed: &[u8]| times(1, packed);
     let options = MeshOptions::default();
     let town = read::<GlTf>(&file(&packed), &options).unwrap();
     let size = 2.0 * town.obstacles[0].shape.half_extents_m - DVec3::new(8.0, 6.0, 5.0);
@@ -237,6 +240,16 @@ fn shapes_that_draco_packed_are_read_and_damaged_ones_refused() {
     }
     let colours = document.colours(shape.attributes["COLOR_0"]).unwrap();
     assert!(colours.iter().all(|colour| (colour[1] - 0.4).abs() < 1e-6 && colour[2] == 1.0), "{colours:?}");
+    // A few bytes that stand for many shapes are refused before all of them are unpacked.
+    let error = Document::read(&times(40_000, &packed)).unwrap_err();
+    assert!(error.message.contains("Draco") && error.message.contains("ceiling"), "{error}");
+    // Each layer of seams takes memory for all 200,000 triangles that a head promises.
+    let promised = |layers: u8| {
+        let count = &[0xc0, 0x9a, 0x0c][..];
+        let head = [&b"DRACO\x02\x02\x01\x01\0\0\0"[..], count, count, &[layers], count, &[0]].concat();
+        Document::read(&file(&head)).unwrap_err().message
+    };
+    assert!(promised(200).contains("ceiling") && !promised(1).contains("ceiling"), "{} {}", promised(200), promised(1));
     // Cut, it is refused by name; with any bit turned it is read or refused, and nothing hangs.
     for length in 0..packed.len() - 1 {
         let error = Document::read(&file(&packed[..length])).unwrap_err();

@@ -1,14 +1,21 @@
 //! Shapes that Draco packed (`KHR_draco_mesh_compression`), as plain accessors of a further buffer.
 
 use super::document::Document;
-use super::views::{Accessor, Packed, REAL, View, is_read};
+use super::views::{Accessor, REAL, View, is_read};
 use cosfly_diagnose::contained;
 use cosfly_town::MapError;
 use draco_core::{DecodeLimits, DecoderBuffer, Mesh, MeshDecoder};
 
-/// Most triangles of all packed shapes of a file, and most bytes of all that they hold: a few bytes may say that they are millions.
-const MOST_TRIANGLES: u64 = 10_000_000;
+/// Most bytes of all that packed shapes hold, drawn or not: those of any file, those for each byte of a file, and those of no file.
+/// A few bytes may say that they are millions, and many shapes may be one.
+const SMALL_BYTES: u64 = 16 << 20;
+const BYTES_PER_BYTE: u64 = 64;
 const MOST_BYTES: u64 = 1 << 30;
+/// Bytes of a triangle's corners, and those that each layer of seams takes for it meanwhile.
+const CORNER_BYTES: u64 = 12;
+const LAYER_BYTES: u64 = 24;
+/// Most layers of seams that a shape can have, and one for the shape itself.
+const MOST_LAYERS: u64 = 256;
 /// Numbers of 32 bits without a sign.
 const INDEX: u32 = 5125;
 const HINT: &str = "`gltf-transform cp FILE plain.glb` unpacks shapes, or export the file without compression";
@@ -17,13 +24,18 @@ impl Document {
     /// Unpacks all packed shapes.
     pub(super) fn unpack(&mut self) -> Result<(), MapError> {
         let mut meshes = std::mem::take(&mut self.meshes);
-        let mut left = DecodeLimits::default().with_max_faces(MOST_TRIANGLES).with_max_decoded_bytes(MOST_BYTES);
+        let bytes = self.data.iter().map(|data| data.len() as u64).sum::<u64>();
+        let mut left = MOST_BYTES.min(SMALL_BYTES + BYTES_PER_BYTE * bytes);
         for shape in meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {
             let Some(packed) = shape.extensions.draco.take() else { continue };
-            let mesh = self.unpacked(&packed, left)?;
+            let view = self.buffer_views.get(packed.buffer_view).and_then(|view| self.viewed(view));
+            let bytes = view.ok_or_else(|| damaged("its bytes are not in the file"))?;
+            let of_triangle = CORNER_BYTES + LAYER_BYTES * layers(bytes).unwrap_or(MOST_LAYERS);
+            let mesh = unpacked(bytes, left, of_triangle)?;
+            let of_point = |number| mesh.attribute(number).byte_stride().unsigned_abs();
+            let of_points = (0..mesh.num_attributes()).map(of_point).sum::<u64>() * mesh.num_points() as u64;
+            left = left.saturating_sub(of_points + of_triangle * mesh.num_faces() as u64);
             let indices: Vec<u8> = mesh.faces().iter().flatten().flat_map(|corner| corner.0.to_le_bytes()).collect();
-            let mut bytes = indices.len() as u64;
-            left = left.with_max_faces(left.max_faces - (mesh.num_faces() as u64).min(left.max_faces));
             shape.indices = Some(self.further(indices, 3 * mesh.num_faces(), INDEX, "SCALAR"));
             shape.mode = Some(4);
             for (name, number) in shape.attributes.iter_mut().filter(|(name, _)| is_read(name)) {
@@ -40,26 +52,11 @@ impl Document {
                 let values = mesh.attribute_by_unique_id(*own).map(|own| own.read_f32s(mesh.num_points(), width));
                 let values = values.ok_or_else(|| damaged("an attribute is not in it"))?;
                 let values: Vec<u8> = values.into_iter().flat_map(|value| (value / most).to_le_bytes()).collect();
-                bytes += values.len() as u64;
                 *number = self.further(values, mesh.num_points(), REAL, &kind);
             }
-            let rest = left.max_decoded_bytes.checked_sub(bytes);
-            left = left.with_max_decoded_bytes(rest.ok_or_else(|| damaged("all of them together are too large"))?);
         }
         self.meshes = meshes;
         Ok(())
-    }
-
-    fn unpacked(&self, packed: &Packed, most: DecodeLimits) -> Result<Mesh, MapError> {
-        let view = self.buffer_views.get(packed.buffer_view).and_then(|view| self.viewed(view));
-        let bytes = view.ok_or_else(|| damaged("its bytes are not in the file"))?;
-        let decoded = contained(|| {
-            let mut mesh = Mesh::new();
-            MeshDecoder::new().decode(&mut DecoderBuffer::new(bytes).with_limits(most), &mut mesh).map(|()| mesh)
-        });
-        let mesh = decoded
-            .unwrap_or_else(|| Err(draco_core::DracoError::general("it holds what no encoder writes".to_owned())));
-        mesh.map_err(|error| damaged(&error.to_string()))
     }
 
     /// The number of a new accessor of these bytes.
@@ -77,6 +74,35 @@ impl Document {
         });
         self.accessors.len() - 1
     }
+}
+
+/// A shape that takes no more bytes than are left.
+fn unpacked(bytes: &[u8], left: u64, of_triangle: u64) -> Result<Mesh, MapError> {
+    let most = DecodeLimits::default().with_max_faces(left / of_triangle).with_max_decoded_bytes(left);
+    let decoded = contained(|| {
+        let mut mesh = Mesh::new();
+        MeshDecoder::new().decode(&mut DecoderBuffer::new(bytes).with_limits(most), &mut mesh).map(|()| mesh)
+    });
+    let mesh =
+        decoded.unwrap_or_else(|| Err(draco_core::DracoError::general("it holds what no encoder writes".to_owned())));
+    mesh.map_err(|error| damaged(&error.to_string()))
+}
+
+/// Layers of seams of a shape and one for itself, by its head: magic, version, kind, method, flags, way, two counts, layers.
+/// None where other data (`metadata`, which no exporter of glTF writes) stand before the counts.
+fn layers(bytes: &[u8]) -> Option<u64> {
+    let (head, mut rest) = bytes.split_at_checked(12)?;
+    if head[8] == 0 {
+        return Some(1);
+    }
+    if head[10] & 0x80 != 0 {
+        return None;
+    }
+    for _ in 0..2 {
+        let length = 1 + rest.iter().position(|byte| byte & 0x80 == 0)?;
+        rest = &rest[length..];
+    }
+    rest.first().map(|layers| 1 + u64::from(*layers))
 }
 
 fn damaged(why: &str) -> MapError {
