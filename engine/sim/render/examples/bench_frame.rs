@@ -1,6 +1,7 @@
-//! Time per 1280 x 720 frame: wall time by stage, CPU time in all; `bench_frame [TOWN.xodr] [PEOPLE [CARS]] [PRESET...]`; without a
-//! map file, an invented town of about 3,000 boxes and 100,000 ground triangles; PEOPLE is how many are around, none by default. With
-//! CARS, people and vehicles are spread over the pavements and lanes of the map, and the views are those of its middle street.
+//! Time per 1280 x 720 frame: wall time by stage, CPU time in all; `bench_frame [TOWN.xodr [SPLATS.ply]] [PEOPLE [CARS]] [PRESET...]`;
+//! without a map file, an invented town of about 3,000 boxes and 100,000 ground triangles; PEOPLE is how many are around, none by
+//! default. With CARS, people and vehicles are spread over the pavements and lanes of the map, and the views are those of its middle
+//! street. SPLATS are those of `cosfly map convert TOWN.xodr`; their time is in the total alone.
 
 #[path = "../tests/crowd/mod.rs"]
 mod crowd;
@@ -13,12 +14,15 @@ use cosfly_domain::Town;
 use cosfly_figures::{BodyShape, Bystander, Walker};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
 use cosfly_maps::MapConfig;
-use cosfly_render::{FrameParts, FrameSetup, RenderConfig, Renderer, Scene, Stages};
+use cosfly_render::{FrameParts, FrameSetup, RenderConfig, Renderer, Scene, SceneScan, SceneSplats, Stages};
+use cosfly_splats::{SplatUpAxis, SplatsConfig, read};
+use std::sync::Arc;
 use std::time::Instant;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1).peekable();
     let map = arguments.next_if(|argument| argument.ends_with(".xodr"));
+    let splats = arguments.next_if(|argument| argument.ends_with(".ply"));
     let people = arguments.next_if(|argument| argument.parse::<u32>().is_ok()).and_then(|count| count.parse().ok());
     let cars: Option<u32> =
         arguments.next_if(|argument| argument.parse::<u32>().is_ok()).and_then(|count| count.parse().ok());
@@ -40,7 +44,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let started = Instant::now();
     let start = cpu_ns(started);
-    let scene = Scene::new(&town, Seed([1; 32]));
+    let mut scene = Scene::new(&town, Seed([1; 32]));
+    if let Some(path) = &splats {
+        let cloud = read(&std::fs::read(path)?)?.cloud;
+        println!("{} splats", cloud.len());
+        let placed = SceneSplats::new(cloud, &SplatsConfig::new("", SplatUpAxis::Z), town.origin.offset_m);
+        let splats = Some(Arc::new(placed.map_err(|problem| problem.message)?));
+        scene = scene.with_scan(SceneScan { splats, ..SceneScan::default() });
+    }
     println!("{} boxes, {} triangles with faces", town.obstacles.len(), scene.triangles().len());
     println!("scene {:8.2} ms once", (cpu_ns(started) - start) as f64 * 1e-6);
     let mut renderer = Renderer::new(RenderConfig::default().camera());
