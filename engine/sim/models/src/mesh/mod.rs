@@ -11,6 +11,7 @@ mod read;
 mod survey;
 mod texture;
 mod textured;
+mod used_texels;
 
 pub use config::{MeshConfig, MeshPlace, MeshProblem};
 pub use materials::named_files;

@@ -30,13 +30,14 @@ impl TexturedMesh {
         } else {
             obj::read(bytes, beside, place)
         };
-        let mesh = or_advice(read, WAY_OUT)?;
+        let mut mesh = or_advice(read, WAY_OUT)?;
         if mesh.triangles.is_empty() {
             let message =
                 format!("no triangle of the mesh can be drawn ({} have no extent or lie far away)", mesh.left_out);
             let hint = "points and lines show nothing; check the unit and the place of the mesh";
             return Err(MapError::new(message).hint(hint));
         }
+        mesh.add_copies();
         Ok(mesh)
     }
 }

@@ -1,5 +1,6 @@
 //! [`MeshTexture`]: a picture of a scan at its full size with smaller copies, four bytes a texel.
 
+use super::used_texels::UsedTexels;
 use crate::pictures::Picture;
 use cosfly_frames::real;
 use cosfly_scans::gltf::materials::TextureWrap;
@@ -16,7 +17,7 @@ const MOST_PROBES: f32 = 16.0;
 /// A picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeshTexture {
-    /// The picture, then copies of half the size, down to one texel.
+    /// The picture, then copies of half the size.
     levels: Vec<Level>,
     /// What is beyond its edges, across and down.
     wraps: [TextureWrap; 2],
@@ -58,12 +59,21 @@ impl MeshTexture {
         let texels: Vec<[u8; 4]> =
             rgb.into_iter().zip(alpha).map(|([red, green, blue], alpha)| [red, green, blue, alpha]).collect();
         let has_holes = texels.iter().any(|texel| texel[3] < 128);
-        let mut levels = vec![Level { width, height, texels }];
-        while let Some(last) = levels.last().filter(|last| last.width.max(last.height) > 1) {
-            let next = last.halved();
-            levels.push(next);
+        Self { levels: vec![Level { width, height, texels }], wraps, has_holes }
+    }
+
+    /// None of its texels.
+    pub(super) fn unused(&self) -> UsedTexels {
+        UsedTexels::new(self.levels[0].width, self.levels[0].height)
+    }
+
+    /// Adds copies of half the size, down to one texel, of what is used.
+    pub(super) fn add_copies(&mut self, mut used: UsedTexels) {
+        while let Some(last) = self.levels.last().filter(|last| last.width.max(last.height) > 1) {
+            let next = last.halved(&used);
+            self.levels.push(next);
+            used = used.halved();
         }
-        Self { levels, wraps, has_holes }
     }
 
     /// Texels of the whole picture, across and down.
@@ -116,8 +126,8 @@ impl MeshTexture {
 }
 
 impl Level {
-    /// Means of two by two texels in light; of one at an odd edge.
-    fn halved(&self) -> Self {
+    /// Means of two by two texels in light, of those that are used if any are; of one at an odd edge.
+    fn halved(&self, used: &UsedTexels) -> Self {
         let light = light();
         let (width, height) = (self.width.div_ceil(2), self.height.div_ceil(2));
         let mut texels = Vec::with_capacity(width * height);
@@ -126,11 +136,14 @@ impl Level {
                 let (left, top) = (2 * column, 2 * row);
                 let (right, below) = ((left + 1).min(self.width - 1), (top + 1).min(self.height - 1));
                 let four = [(left, top), (right, top), (left, below), (right, below)];
-                let four = four.map(|(x, y)| self.texels[y * self.width + x]);
+                let is_any = four.iter().any(|(x, y)| used.is_used(*x, *y));
+                let kept = four.iter().filter(|(x, y)| !is_any || used.is_used(*x, *y));
+                let kept = || kept.clone().map(|(x, y)| self.texels[y * self.width + x]);
+                let count = kept().count() as u16;
                 let mean = |channel: usize| {
-                    code(0.25 * four.iter().map(|texel| light[usize::from(texel[channel])]).sum::<f32>())
+                    code(kept().map(|texel| light[usize::from(texel[channel])]).sum::<f32>() / f32::from(count))
                 };
-                let alpha = (four.iter().map(|texel| u16::from(texel[3])).sum::<u16>() + 2) / 4;
+                let alpha = (kept().map(|texel| u16::from(texel[3])).sum::<u16>() + count / 2) / count;
                 texels.push([mean(0), mean(1), mean(2), alpha as u8]);
             }
         }
@@ -177,7 +190,12 @@ mod tests {
     fn samples_lie_between_texels_and_far_ones_are_the_mean_of_their_light() {
         let picture =
             Picture { width: 4, height: 1, rgb: vec![[0; 3], [255; 3], [0; 3], [255; 3]], alpha: vec![255, 0, 255, 0] };
-        let texture = MeshTexture::new(picture.clone(), [TextureWrap::Repeat; 2]);
+        let whole = |picture: &Picture, wrap| {
+            let mut texture = MeshTexture::new(picture.clone(), [wrap; 2]);
+            texture.add_copies(texture.unused());
+            texture
+        };
+        let texture = whole(&picture, TextureWrap::Repeat);
         // Pixels that cover a square of the picture.
         let square = |texels: f32| [[texels / 4.0, 0.0], [0.0, texels]];
         assert_eq!(texture.sample([0.125, 0.5], square(1.0)), [0.0, 0.0, 0.0, 1.0]);
@@ -187,16 +205,21 @@ mod tests {
         assert!((mean[0] - 0.5).abs() < 5e-3 && (mean[3] - 0.5).abs() < 5e-3, "{mean:?}");
         assert!(texture.sample([f32::NAN, f32::INFINITY], square(f32::NAN)).iter().all(|it| it.is_finite()));
         for (wrap, beyond) in [(TextureWrap::Clamp, 1.0), (TextureWrap::Mirror, 1.0), (TextureWrap::Repeat, 0.0)] {
-            let texture = MeshTexture::new(picture.clone(), [wrap; 2]);
+            let texture = whole(&picture, wrap);
             assert_eq!(texture.sample([1.125, 0.5], square(1.0))[0], beyond, "{wrap:?}");
             // At the edge itself, a repeated picture is between its two sides.
             assert_eq!(texture.sample([1.0, 0.5], square(1.0))[0], if beyond == 1.0 { 1.0 } else { 0.5 }, "{wrap:?}");
             assert!(texture.sample([-7.3, f32::NAN], square(3.0)).iter().all(|it| it.is_finite()));
         }
         // A pixel that is long across covers both columns of a pair, and one that is long down none but its own.
-        let texture = MeshTexture::new(picture, [TextureWrap::Repeat; 2]);
+        let texture = whole(&picture, TextureWrap::Repeat);
         assert!((texture.sample([0.25, 0.5], [[0.0, 0.0], [0.5, 0.0]])[0] - 0.5).abs() < 1e-3);
         assert_eq!(texture.sample([0.375, 0.5], [[0.0, 7.0], [0.01, 0.0]])[0], 1.0);
+        // Where one piece of the picture is used, the rest does not mix into far copies.
+        let (mut texture, mut used) = (MeshTexture::new(picture, [TextureWrap::Clamp; 2]), texture.unused());
+        used.add([[0.3, 0.2], [0.45, 0.2], [0.3, 0.8]]);
+        texture.add_copies(used);
+        assert_eq!(texture.sample([0.375, 0.5], square(4.0))[0], 1.0);
         assert!((0..=255).all(|own: u8| code(light()[usize::from(own)]) == own));
         assert_eq!((code(-1.0), code(2.0), code(f32::NAN)), (0, 255, 0));
     }

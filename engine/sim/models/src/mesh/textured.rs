@@ -1,6 +1,7 @@
 //! [`TexturedMesh`]: triangles of a file where they lie in the world, and their looks.
 
 use super::texture::{MeshTexture, PixelSides, light};
+use super::used_texels::UsedTexels;
 use cosfly_frames::DVec3;
 
 /// Triangles of a file where they lie in the world, and their looks.
@@ -49,6 +50,17 @@ impl TexturedMesh {
     pub fn bounds(&self) -> [DVec3; 2] {
         let corners = || self.triangles.iter().flat_map(MeshTriangle::corners);
         [corners().fold(DVec3::INFINITY, DVec3::min), corners().fold(DVec3::NEG_INFINITY, DVec3::max)]
+    }
+
+    /// Adds smaller copies to all pictures, of what triangles show of them.
+    pub(super) fn add_copies(&mut self) {
+        let mut used: Vec<UsedTexels> = self.textures.iter().map(MeshTexture::unused).collect();
+        for triangle in &self.triangles {
+            if let Some(texture) = self.materials[triangle.material as usize].texture {
+                used[texture as usize].add(triangle.texture_places);
+            }
+        }
+        self.textures.iter_mut().zip(used).for_each(|(texture, used)| texture.add_copies(used));
     }
 
     /// Linear colour and opacity of a triangle where its corners have these weights, for a pixel with these sides in its texture.
