@@ -209,8 +209,10 @@ fn slabs(point: &SurfacePoint, worn: f32, fine: NoiseLevel, noise: &NoiseTexture
 #[inline(always)]
 fn paint(point: &SurfacePoint, worn: NoiseLevel, noise: &NoiseTexture) -> Vec3 {
     let (x, y) = (point.world.x, point.world.y);
-    let worn = smoothstep(0.62, 0.86, noise.clumps_at(x * 9.0, y * 9.0, worn));
-    Vec3::splat(0.70).lerp(Vec3::splat(0.15), 0.75 * worn)
+    // Some stretches are older than others.
+    let old = smoothstep(0.35, 0.75, noise.clumps(x * 0.21 + 11.0, y * 0.21, point.footprint_m * 0.21));
+    let worn = smoothstep(0.66 - 0.22 * old, 0.88 - 0.16 * old, noise.clumps_at(x * 9.0, y * 9.0, worn));
+    Vec3::splat(0.70 - 0.16 * old).lerp(Vec3::splat(0.15), 0.8 * worn)
 }
 
 /// Height of small waves, 0..=1.

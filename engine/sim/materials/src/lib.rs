@@ -3,7 +3,7 @@
 //!
 //! [`parts`] are the boxes and ground of a town that carry materials; [`roof_steps`] and [`roof_edges`] say which of their
 //! faces make one roof, [`roof_slopes`] cuts pitched ones straight, [`round_crowns`] stacks of boxes round. [`facade`], [`ground`],
-//! [`kerbs`], [`lane_wear`], [`leaves`] and [`things`] are the materials: they read points from [`lanes`] and write looks ([`surface`]). [`light`] is the sun, sky and lamps of a [`weather`]; [`grid`] how much of the sky and of
+//! [`kerbs`], [`lane_marks`], [`lane_wear`], [`leaves`] and [`things`] are the materials: they read points from [`lanes`] and write looks ([`surface`]). [`light`] is the sun, sky and lamps of a [`weather`]; [`grid`] how much of the sky and of
 //! the lamps each place of a town sees; [`scan_light`] the light of scans. [`season`] turns leaves and lawns.
 
 pub mod drawn_shapes;
@@ -13,6 +13,7 @@ pub mod far_light;
 pub mod grid;
 pub mod ground;
 pub mod kerbs;
+pub mod lane_marks;
 pub mod lane_wear;
 pub mod lanes;
 pub mod leaves;

@@ -2,6 +2,7 @@
 
 use cosfly_domain::{SemanticLabel, Town};
 use cosfly_frames::DVec3;
+use cosfly_materials::lane_marks::lane_marks;
 use std::collections::BTreeMap;
 
 /// Largest distance of a corner from its polygon's plane, metres.
@@ -76,7 +77,7 @@ impl Mesh {
     fn of(town: &Town) -> Self {
         let mut numbers: BTreeMap<[u64; 3], u32> = BTreeMap::new();
         let (mut points, mut polygons) = (Vec::new(), Vec::new());
-        for surface in &town.surfaces {
+        for surface in town.surfaces.iter().chain(&lane_marks(town)) {
             let of_surface: Vec<Option<u32>> = surface
                 .vertices_in_world
                 .iter()
