@@ -4,6 +4,7 @@
 
 use super::lanes::{Block, EMPTY_ROW, PendingFours, Shared, StageRow, WIDE, get, groups, set, write_row};
 use super::pattern::{NoiseTexture, Noises, band, draw, floor_int, hash, most, one_if, stripes, unit};
+use super::square::Square;
 use super::vector::Vec3;
 use cosfly_frames::simd_kernel;
 
@@ -22,22 +23,29 @@ pub struct KerbLine {
     pub inward: [f32; 2],
     /// Distance of the line from the world's origin along that vector, metres.
     pub offset_m: f32,
+    /// How the ground behind it is laid.
+    pub square: Square,
 }
 
 impl KerbLine {
     /// No kerb: everything is far from it.
-    pub const NONE: Self = Self { inward: [0.0; 2], offset_m: -99.0 };
+    pub const NONE: Self = Self { inward: [0.0; 2], offset_m: -99.0, square: Square::NONE };
 }
 
 /// Lines on the stage, one for each four.
 pub struct Kerbs {
     inward: [StageRow; 2],
     offset_m: StageRow,
+    /// Rows of squares.
+    pub along: [StageRow; 2],
+    /// Their pavings.
+    pub square: StageRow,
 }
 
 impl Kerbs {
     /// Nothing in particular.
-    pub const EMPTY: Self = Self { inward: [EMPTY_ROW; 2], offset_m: EMPTY_ROW };
+    pub const EMPTY: Self =
+        Self { inward: [EMPTY_ROW; 2], offset_m: EMPTY_ROW, along: [EMPTY_ROW; 2], square: EMPTY_ROW };
 }
 
 simd_kernel! {
@@ -48,6 +56,9 @@ simd_kernel! {
             write_row(&mut kerbs.inward[0], at, line.inward[0]);
             write_row(&mut kerbs.inward[1], at, line.inward[1]);
             write_row(&mut kerbs.offset_m, at, line.offset_m);
+            write_row(&mut kerbs.along[0], at, line.square.along[0]);
+            write_row(&mut kerbs.along[1], at, line.square.along[1]);
+            write_row(&mut kerbs.square, at, line.square.kind);
         }
     }
 }

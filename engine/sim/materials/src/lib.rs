@@ -3,7 +3,7 @@
 //!
 //! [`parts`] are the boxes and ground of a town that carry materials; [`roof_steps`] and [`roof_edges`] say which of their
 //! faces make one roof, [`roof_slopes`] cuts pitched ones straight, [`round_crowns`] stacks of boxes round. [`facade`], [`ground`],
-//! [`kerbs`], [`lane_marks`], [`lane_wear`], [`leaves`] and [`things`] are the materials: they read points from [`lanes`] and write looks ([`surface`]). [`light`] is the sun, sky and lamps of a [`weather`]; [`grid`] how much of the sky and of
+//! [`paving`], [`kerbs`], [`lane_marks`], [`lane_wear`], [`leaves`] and [`things`] are the materials: they read points from [`lanes`] and write looks ([`surface`]). [`light`] is the sun, sky and lamps of a [`weather`]; [`grid`] how much of the sky and of
 //! the lamps each place of a town sees; [`scan_light`] the light of scans. [`season`] turns leaves and lawns.
 
 pub mod drawn_shapes;
@@ -12,6 +12,8 @@ pub mod facade;
 pub mod far_light;
 pub mod grid;
 pub mod ground;
+pub mod ground_polygons;
+pub mod kerb_lines;
 pub mod kerbs;
 pub mod lane_marks;
 pub mod lane_wear;
@@ -20,6 +22,7 @@ pub mod leaves;
 pub mod light;
 pub mod parts;
 pub mod pattern;
+pub mod paving;
 pub mod presets;
 pub mod roof_edges;
 pub mod roof_slopes;
@@ -28,6 +31,7 @@ pub mod roof_steps;
 pub mod round_crowns;
 pub mod scan_light;
 pub mod season;
+pub mod square;
 pub mod surface;
 pub mod things;
 pub mod tone;

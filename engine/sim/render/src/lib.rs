@@ -13,8 +13,6 @@ pub mod effects;
 mod faces;
 mod found;
 pub mod frame;
-mod ground_polygons;
-mod kerb_lines;
 mod lenses;
 mod look;
 mod mesh_labels;

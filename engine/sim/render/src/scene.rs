@@ -1,7 +1,5 @@
 //! A town prepared for the renderer: boxes with faces, ground polygons in small bounded clusters, seeds for looks.
 
-use crate::ground_polygons::{GroundPolygon, GroundPolygons};
-use crate::kerb_lines::kerb_lines;
 use crate::parked::{leave_out, parked_cars};
 use crate::props::{Props, SceneModel};
 use crate::scene_mesh::SceneMesh;
@@ -14,6 +12,8 @@ use cosfly_figures::{Bystander, Clothes, figure};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_materials::drawn_shapes::cut_to_drawn;
 use cosfly_materials::grid::LightGrid;
+use cosfly_materials::ground_polygons::{GroundPolygon, GroundPolygons};
+use cosfly_materials::kerb_lines::edges_of_pavements;
 use cosfly_materials::kerbs::{KerbLine, tone_of_town};
 use cosfly_materials::lane_wear::LaneWear;
 use cosfly_materials::leaves::Leaves;
@@ -256,7 +256,7 @@ pub(crate) fn clusters_of(town: &Town) -> Vec<Cluster> {
         })
         .collect();
     order.sort_unstable();
-    let kerbs = kerb_lines(&ground.points_in_world, &ground.polygons);
+    let kerbs = edges_of_pavements(town, &ground);
     order.chunks(CLUSTER_POLYGONS).map(|members| cluster_of(&ground, &kerbs, members)).collect()
 }
 

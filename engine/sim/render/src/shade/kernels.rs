@@ -17,6 +17,7 @@ use cosfly_materials::kerbs::{Kerbs, stones};
 use cosfly_materials::lane_wear::worn;
 use cosfly_materials::lanes::{Block, PendingFours, Shared, StageRow, WIDE};
 use cosfly_materials::leaves::{Crowns, even_leaves, leaves, swell};
+use cosfly_materials::paving::pave;
 use cosfly_materials::things::things;
 
 /// Sunlight on leaves is looked up this far towards the sun, metres.
@@ -88,6 +89,7 @@ pub(super) fn run_kernels(
                 worn(level, shared, blocks, &seen.scene.wear, noise);
             }
             if *label == SemanticLabel::SideWalks {
+                pave(level, shared, blocks, kerbs, noise);
                 stones(level, shared, blocks, kerbs, seen.scene.kerb_tone, noise);
             }
         }

@@ -1,8 +1,8 @@
 //! Ground as few large polygons: neighbouring triangles of one label that lie in one plane, joined while convex.
 
+use crate::lane_marks::lane_marks;
 use cosfly_domain::{SemanticLabel, Town};
 use cosfly_frames::DVec3;
-use cosfly_materials::lane_marks::lane_marks;
 use std::collections::BTreeMap;
 
 /// Largest distance of a corner from its polygon's plane, metres.

@@ -1,17 +1,31 @@
 //! Where pavements end at a kerb: edges that they share with a low upright face.
 
-use crate::ground_polygons::GroundPolygon;
-use cosfly_domain::SemanticLabel;
+use crate::ground_polygons::{GroundPolygon, GroundPolygons};
+use crate::kerbs::KerbLine;
+use crate::paving::Squares;
+use crate::square::Square;
+use cosfly_domain::{SemanticLabel, Town};
 use cosfly_frames::{DVec2, DVec3};
-use cosfly_materials::kerbs::KerbLine;
 
 /// Faces that are less level than this are upright.
 const UPRIGHT: f64 = 0.6;
 /// Higher faces are not of kerbs, metres.
 const HIGHEST_M: f64 = 0.6;
 
+/// The line of the kerb beside each polygon of a town, and how pavements are laid.
+pub fn edges_of_pavements(town: &Town, ground: &GroundPolygons) -> Vec<KerbLine> {
+    let squares = Squares::of(town);
+    let mut lines = kerb_lines(&ground.points_in_world, &ground.polygons);
+    for (line, polygon) in lines.iter_mut().zip(&ground.polygons) {
+        if polygon.label == SemanticLabel::SideWalks {
+            line.square = squares.at(polygon.middle_in_world.truncate());
+        }
+    }
+    lines
+}
+
 /// The line of the kerb beside each polygon: that of its longest edge at one.
-pub(crate) fn kerb_lines(points: &[DVec3], polygons: &[GroundPolygon]) -> Vec<KerbLine> {
+fn kerb_lines(points: &[DVec3], polygons: &[GroundPolygon]) -> Vec<KerbLine> {
     // Kerb faces around each point.
     let mut faces: Vec<Vec<u32>> = vec![Vec::new(); points.len()];
     for (number, polygon) in polygons.iter().enumerate().filter(|(_, polygon)| is_kerb(points, polygon)) {
@@ -41,7 +55,7 @@ fn kerb_line(points: &[DVec3], faces: &[Vec<u32>], polygon: &GroundPolygon) -> K
     let across = (to - from).perp().normalize();
     let middle = polygon.middle_in_world.truncate();
     let inward = if across.dot(middle - from) < 0.0 { -across } else { across };
-    KerbLine { inward: inward.as_vec2().to_array(), offset_m: inward.dot(from) as f32 }
+    KerbLine { inward: inward.as_vec2().to_array(), offset_m: inward.dot(from) as f32, square: Square::NONE }
 }
 
 fn length_m([from, to]: &[DVec2; 2]) -> f64 {
@@ -66,7 +80,7 @@ mod tests {
         let top = polygon(&[0, 1, 2, 3], DVec3::Z, point(4.5, 4.0, 0.15));
         let face = polygon(&[4, 5, 1, 0], DVec3::Y, point(4.5, 3.0, 0.075));
         let lines = kerb_lines(&points, &[top, face]);
-        assert_eq!(lines[0], KerbLine { inward: [0.0, 1.0], offset_m: 3.0 });
+        assert_eq!(lines[0], KerbLine { inward: [0.0, 1.0], offset_m: 3.0, square: Square::NONE });
         points[4].z = -1.5;
         points[5].z = -1.5;
         let top = polygon(&[0, 1, 2, 3], DVec3::Z, point(4.5, 4.0, 0.15));
