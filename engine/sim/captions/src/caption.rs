@@ -4,7 +4,7 @@ use crate::config::{CaptionConfig, Style};
 use crate::description::description;
 use crate::facts::Facts;
 use crate::instruction::instruction;
-use crate::messages::{Speaker, approximately, messages};
+use crate::messages::{Speaker, approximately, messages_of};
 use crate::wording::TEMPLATES;
 use cosfly_claims::Language;
 use cosfly_random::{RandomStream, Seed};
@@ -33,7 +33,7 @@ pub fn captions(facts: &Facts, config: &CaptionConfig, seed: Seed) -> Vec<Captio
                 // Draws the words again where another template came to the same text.
                 let drawn = (0..MOST_DRAWS).map(|draw| {
                     let words = &mut own.child("words", template as u64).child("draw", draw).stream("choice");
-                    let speaker = &mut Speaker { messages: messages(language), words };
+                    let speaker = &mut Speaker { messages: messages_of(language, facts.runs()), words };
                     let text = match style {
                         Style::Instruction => instruction(facts, template, speaker),
                         Style::Description => description(facts, template, speaker),
@@ -188,5 +188,26 @@ pub(crate) mod tests {
             assert_eq!(distinct.len(), texts.len());
             assert_eq!(texts, captions(&known, &config, seed));
         }
+    }
+
+    #[test]
+    fn who_runs_is_not_said_to_walk() {
+        let config = CaptionConfig { variants_per_style: 8, ..CaptionConfig::default() };
+        let walking = ["walk", "on foot", "步行", "行走", "走"];
+        let (mut running, mut refused) = (0, 0);
+        for (at, walker) in flights().into_iter().enumerate().filter(|(_, it)| it.walks) {
+            let (walking_speed_mps, way_m) = (2.5 * walker.walking_speed_mps, 2.5 * walker.way_m);
+            let runner = Facts { walking_speed_mps, way_m, ..walker.clone() };
+            assert!(runner.runs() && !walker.runs());
+            for caption in captions(&runner, &config, Seed::of_item(3, "captions", &at.to_string())) {
+                assert_eq!(check(&caption.text, caption.language, &runner), Ok(()), "{}", caption.text);
+                assert!(!walking.iter().any(|it| caption.text.contains(it)), "{}", caption.text);
+                running += usize::from(["runs", "running", "跑"].iter().any(|it| caption.text.contains(it)));
+            }
+            let texts = ["walks along, about 10 m away", "步行前行"];
+            refused +=
+                texts.iter().zip(Language::ALL).filter(|(it, in_its)| check(it, **in_its, &runner).is_err()).count();
+        }
+        assert!(running > 60 && refused > 20, "{running} {refused}");
     }
 }

@@ -12,6 +12,8 @@ const STANDING_MPS: f64 = 0.05;
 pub(crate) const LEAST_STOP_S: f64 = 1.0;
 /// A target that moves less than this in all stands, metres.
 const LEAST_WALK_M: f64 = 1.0;
+/// People who are faster while they move run, m/s.
+pub(crate) const RUNNING_MPS: f64 = 2.2;
 /// Way at the start and at the end of a walk that gives their directions, metres.
 const END_M: f64 = 3.0;
 /// The first turn comes soon in the first fifth of the time and the first seconds; late in the second half, after some seconds.
@@ -106,6 +108,11 @@ impl Facts {
     /// These facts with the target's clothes.
     pub fn wearing(self, wear: Option<Wear>) -> Self {
         Self { wear, ..self }
+    }
+
+    /// Whether the target runs: nobody walks as fast.
+    pub fn runs(&self) -> bool {
+        self.walking_speed_mps > RUNNING_MPS
     }
 
     /// Time of all stops together, seconds.

@@ -4,14 +4,14 @@ use crate::config::Style;
 use crate::description::turn_name;
 use crate::facts::Facts;
 use crate::instruction::side;
-use crate::messages::{Messages, messages};
+use crate::messages::{Messages, messages_of};
 use crate::precision::{DISTANCE_STEP_M, PITCH_STEP_DEG, SPEED_STEP_MPS, STOP_STEP_S, duration_step_s, way_step_m};
 use crate::wording::rounded;
 use cosfly_claims::Language;
 
 /// The facts in words, one a line.
 pub fn facts_in_words(facts: &Facts, language: Language, style: Style) -> String {
-    let messages = messages(language);
+    let messages = messages_of(language, facts.runs());
     let mut lines = always(facts, messages);
     if style == Style::Description {
         if facts.walks {

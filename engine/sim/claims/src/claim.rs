@@ -51,6 +51,8 @@ pub enum Claim {
     Stays,
     /// The target walks.
     Walks,
+    /// The target runs.
+    Runs,
     /// A number that this reader cannot place.
     Unknown(String),
 }

@@ -40,6 +40,7 @@ pub(crate) enum Concept {
     Up,
     Level,
     Walks,
+    Runs,
     Stands,
     Stop,
     Straight,
@@ -160,7 +161,7 @@ fn concept(name: &str) -> Option<Concept> {
 }
 
 fn plain_concept(name: &str) -> Option<Concept> {
-    const NAMES: [(&str, Concept); 30] = [
+    const NAMES: [(&str, Concept); 31] = [
         ("point", Concept::Point),
         ("metres", Concept::Metres),
         ("seconds", Concept::Seconds),
@@ -178,6 +179,7 @@ fn plain_concept(name: &str) -> Option<Concept> {
         ("up", Concept::Up),
         ("level", Concept::Level),
         ("walks", Concept::Walks),
+        ("runs", Concept::Runs),
         ("stands", Concept::Stands),
         ("stop", Concept::Stop),
         ("straight", Concept::Straight),

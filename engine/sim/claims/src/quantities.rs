@@ -41,7 +41,7 @@ fn is_speed(sentence: Sentence<'_>, at: usize) -> bool {
 }
 
 fn length(sentence: Sentence<'_>, at: usize, unit: usize, value: f64) -> Claim {
-    let is_cue = |it| matches!(it, Concept::Away | Concept::Above | Concept::Way | Concept::Walks);
+    let is_cue = |it| matches!(it, Concept::Away | Concept::Above | Concept::Way | Concept::Walks | Concept::Runs);
     let clause = sentence.clause(at);
     let near =
         sentence.behind(unit, REACH, &is_cue).or_else(|| sentence.before(at, &|it| is_cue(it) || it == Concept::At));
@@ -49,7 +49,7 @@ fn length(sentence: Sentence<'_>, at: usize, unit: usize, value: f64) -> Claim {
     let is_of_walk = |it| matches!(it, Concept::Seconds | Concept::Speed);
     match near.and_then(|place| sentence.concept(place)) {
         Some(Concept::Above) => Claim::Altitude(value),
-        Some(Concept::Way | Concept::Walks) => Claim::Way(value),
+        Some(Concept::Way | Concept::Walks | Concept::Runs) => Claim::Way(value),
         // `130 m in 100 seconds`
         None if clause.into_iter().any(|place| sentence.concept(place).is_some_and(is_of_walk)) => Claim::Way(value),
         _ => Claim::Distance(value),
@@ -59,7 +59,10 @@ fn length(sentence: Sentence<'_>, at: usize, unit: usize, value: f64) -> Claim {
 /// A time is that of the stops where a stop is nearer than the walk.
 fn time(sentence: Sentence<'_>, at: usize, unit: usize, value: f64) -> Claim {
     let is_near = |it| matches!(it, Concept::Stop | Concept::Time);
-    let is_cue = |it| is_near(it) || matches!(it, Concept::Way | Concept::Walks | Concept::Speed | Concept::EachSecond);
+    let is_cue = |it| {
+        is_near(it)
+            || matches!(it, Concept::Way | Concept::Walks | Concept::Runs | Concept::Speed | Concept::EachSecond)
+    };
     let near = sentence.behind(unit, REACH, &is_near).or_else(|| sentence.long_before(at, &is_cue));
     match near {
         Some(place) if sentence.concept(place) == Some(Concept::Stop) && !sentence.is_denied(place) => {

@@ -96,6 +96,7 @@ fn phrase(sentence: Sentence<'_>, at: usize, concept: Concept, claims: &mut Vec<
         Concept::Stop if is_denied => claims.push(Claim::Stops(0)),
         Concept::Stands => claims.push(Claim::Stays),
         Concept::Walks if !is_denied => claims.push(Claim::Walks),
+        Concept::Runs if !is_denied => claims.push(Claim::Runs),
         Concept::Straight => claims.push(Claim::Straight),
         Concept::Turn(_) | Concept::Side(_) => match turn(sentence, at, claims) {
             Some(_) if is_denied => claims.push(Claim::NoTurns),

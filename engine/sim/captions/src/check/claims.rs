@@ -3,7 +3,7 @@
 use super::clothes::clothes_mismatch;
 use super::slot::{Slot, SlotMismatch};
 use super::turns::{is_list_of, may_have};
-use crate::facts::{Facts, LATE_S, LATE_SHARE, LEAST_STOP_S, LeftOut, SOON_S, SOON_SHARE};
+use crate::facts::{Facts, LATE_S, LATE_SHARE, LEAST_STOP_S, LeftOut, RUNNING_MPS, SOON_S, SOON_SHARE};
 use crate::precision::{
     DISTANCE_STEP_M, PITCH_STEP_DEG, SPEED_STEP_MPS, STOP_STEP_S, duration_step_s, is_step, way_step_m,
 };
@@ -26,6 +26,9 @@ pub(super) fn mismatches(claims: &[Claim], facts: &Facts) -> Vec<SlotMismatch> {
 const BORDER_S: f64 = 2.0;
 /// A target goes at most this much faster than on average where frames miss it.
 const FAST: f64 = 1.5;
+
+/// Slower people than runners by less than this may be said to run, faster ones to walk, m/s.
+const GAIT_MPS: f64 = 0.4;
 
 struct Checker<'a> {
     facts: &'a Facts,
@@ -97,11 +100,18 @@ impl Checker<'_> {
             }
             Claim::TurnsSoon | Claim::TurnsLate => self.time_of_turn(*claim == Claim::TurnsSoon),
             Claim::Stays => self.expect(!facts.walks, Slot::Walking, "stands", "walks"),
-            Claim::Walks => self.expect(facts.walks, Slot::Walking, "walks", "stands"),
+            Claim::Walks => self.gait("walks", facts.walks && facts.walking_speed_mps < RUNNING_MPS + GAIT_MPS),
+            Claim::Runs => self.gait("runs", facts.walking_speed_mps > RUNNING_MPS - GAIT_MPS),
             Claim::Unknown(ref words) => self.expect(false, Slot::Number, words, "nothing of the kind"),
             Claim::Direction(_) | Claim::Turn(_) => {}
             _ => self.measure(claim),
         }
+    }
+
+    /// Whether the target goes so; between walking and running, both may be said.
+    fn gait(&mut self, said: &str, holds: bool) {
+        let does = if self.facts.runs() { "runs" } else { "walks" };
+        self.expect(holds, Slot::Walking, said, if self.facts.walks { does } else { "stands" });
     }
 
     /// A number with a unit.

@@ -43,7 +43,7 @@ fn slot(claim: &Claim) -> Slot {
         Claim::Turn(_) | Claim::Turns(_) | Claim::TurnsOf(..) | Claim::NoTurns | Claim::Straight => Slot::Turns,
         Claim::TurnsSoon | Claim::TurnsLate => Slot::Turns,
         Claim::Top(_) | Claim::Trousers(_) | Claim::Backpack(_) => Slot::Clothes,
-        Claim::Stays | Claim::Walks => Slot::Walking,
+        Claim::Stays | Claim::Walks | Claim::Runs => Slot::Walking,
         Claim::Unknown(_) => Slot::Number,
     }
 }

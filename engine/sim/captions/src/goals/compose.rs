@@ -6,7 +6,7 @@ use super::plan::{Goal, Plan};
 use super::predicate::{anchored, joined, predicate, together};
 use super::{pick, steps};
 use crate::facts::Wear;
-use crate::messages::{Messages, Speaker, capital, fill, messages};
+use crate::messages::{Messages, Speaker, capital, fill, messages_of};
 use crate::who::who;
 use crate::wording::one_of;
 use cosfly_claims::Language;
@@ -23,7 +23,7 @@ pub fn goals(course: &Course<'_>, seed: &Seed) -> Vec<Goal> {
     plans.extend(pick::dialogues(course, &mut seed.stream("dialogues")));
     plans.extend(pick::negatives(course, &plans, &mut seed.stream("negatives")));
     let right_after = course.frames_in(RIGHT_AFTER_S);
-    let mut goals = vec![];
+    let (runs, mut goals) = (course.runs(), vec![]);
     for (number, plan) in plans.iter().enumerate() {
         for language in Language::ALL.iter().copied() {
             let words = &mut seed.child(language.code(), number as u64).stream("words");
@@ -31,7 +31,7 @@ pub fn goals(course: &Course<'_>, seed: &Seed) -> Vec<Goal> {
                 grain: plan.grain,
                 language,
                 frames: plan.frames.clone(),
-                lines: lines(plan, right_after, &mut Speaker { messages: messages(language), words }),
+                lines: lines(plan, right_after, &mut Speaker { messages: messages_of(language, runs), words }),
                 said: plan.said.clone(),
                 wrong: plan.wrong,
             });

@@ -2,7 +2,7 @@
 
 use super::claim::{Claim, Hider, Said, is_named};
 use super::crossings::crossings;
-use crate::facts::Wear;
+use crate::facts::{RUNNING_MPS, Wear};
 use crate::sight::Landmarks;
 use crate::turns::{Path, Turns};
 use cosfly_claims::TurnKind;
@@ -102,6 +102,14 @@ impl<'a> Course<'a> {
         let stops = if walks { pauses(&moving, flight.dt_s) } else { vec![] };
         let crossings = crossings(flight.states, landmarks);
         Self { flight, landmarks, walks, turns, path, stops, crossings }
+    }
+
+    /// Whether the target runs: the mean of its speeds while it moves says so.
+    pub(super) fn runs(&self) -> bool {
+        let moving =
+            self.flight.states.iter().map(|state| state.speed_mps).filter(|speed_mps| *speed_mps >= STANDING_MPS);
+        let (sum_mps, count) = moving.fold((0.0, 0.0), |(sum, count), speed_mps| (sum + speed_mps, count + 1.0));
+        sum_mps > RUNNING_MPS * count
     }
 
     /// Number of frames.

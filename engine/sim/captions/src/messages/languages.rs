@@ -6,8 +6,11 @@ use cosfly_claims::Language;
 use cosfly_random::RandomStream;
 use std::sync::LazyLock;
 
-static TABLES: LazyLock<Vec<Messages>> =
-    LazyLock::new(|| Language::ALL.iter().map(|language| Messages::parse(file(*language))).collect());
+/// Tables of people who walk and of those who run.
+static TABLES: LazyLock<Vec<[Messages; 2]>> = LazyLock::new(|| {
+    let tables = Language::ALL.iter().map(|language| Messages::parse(file(*language)));
+    tables.map(|walking| [walking.of_runner(), walking]).collect()
+});
 
 /// File with the messages of a language.
 fn file(language: Language) -> &'static str {
@@ -19,7 +22,12 @@ fn file(language: Language) -> &'static str {
 
 /// Messages of a language.
 pub(crate) fn messages(language: Language) -> &'static Messages {
-    &TABLES[language as usize]
+    &TABLES[language as usize][1]
+}
+
+/// Messages of a language about somebody who runs, or walks.
+pub(crate) fn messages_of(language: Language, runs: bool) -> &'static Messages {
+    &TABLES[language as usize][usize::from(!runs)]
 }
 
 /// A text with other words for some of its `about` before numbers.

@@ -41,6 +41,14 @@ impl Messages {
         self.wordings.get(id).or_else(|| self.wordings.get(stem)).map_or(&[], Vec::as_slice)
     }
 
+    /// These texts of somebody who runs: words of walking become those of running.
+    pub fn of_runner(&self) -> Self {
+        let pairs: Vec<(&str, &str)> = self.all("running-words").iter().filter_map(|it| it.split_once(" > ")).collect();
+        let run = |text: &String| pairs.iter().fold(text.clone(), |text, (from, to)| with_word(&text, from, to));
+        let wordings = self.wordings.iter().map(|(id, all)| (id.clone(), all.iter().map(run).collect()));
+        Self { wordings: wordings.collect() }
+    }
+
     /// The first wording of a message.
     pub fn text(&self, id: &str) -> &str {
         self.all(id).first().map_or("", String::as_str)
@@ -51,4 +59,19 @@ impl Messages {
     pub fn iter(&self) -> impl Iterator<Item = (&str, &[String])> {
         self.wordings.iter().map(|(id, all)| (id.as_str(), all.as_slice()))
     }
+}
+
+/// A text with one word for another, where it is no part of a longer word.
+fn with_word(text: &str, from: &str, to: &str) -> String {
+    let is_letter = |it: Option<char>| it.is_some_and(|it| it.is_ascii_alphabetic());
+    let (mut out, mut done) = (String::with_capacity(text.len()), 0);
+    for (at, _) in text.match_indices(from) {
+        let [before, behind] = [text[..at].chars().next_back(), text[at + from.len()..].chars().next()];
+        if !is_letter(before) && !is_letter(behind) {
+            out += &text[done..at];
+            out += to;
+            done = at + from.len();
+        }
+    }
+    out + &text[done..]
 }

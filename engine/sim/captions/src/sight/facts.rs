@@ -6,7 +6,7 @@
 use super::beside::{NearLandmark, near_landmarks};
 use super::landmarks::Landmarks;
 use super::view::{STANDS_M, SeenPerson, WALKS_M, WindowView};
-use crate::facts::Wear;
+use crate::facts::{RUNNING_MPS, Wear};
 use crate::part::PicturePart;
 use cosfly_domain::Colour;
 use cosfly_frames::real;
@@ -98,13 +98,16 @@ pub struct SeenTarget {
 pub struct Sight {
     /// Clothes of the target.
     pub wear: Option<Wear>,
+    /// Whether the target runs.
+    pub runs: bool,
     /// Facts of the picture; `None` where it shows no pixel of the target.
     pub seen: Option<SeenTarget>,
 }
 
 /// Facts of the picture in a town with these landmarks.
 pub fn sight(view: &WindowView, landmarks: &Landmarks) -> Sight {
-    Sight { wear: view.wear, seen: view.target.box_px.map(|_| seen(view, landmarks)) }
+    let runs = view.target.speed_mps > RUNNING_MPS;
+    Sight { wear: view.wear, runs, seen: view.target.box_px.map(|_| seen(view, landmarks)) }
 }
 
 fn seen(view: &WindowView, landmarks: &Landmarks) -> SeenTarget {

@@ -4,7 +4,7 @@ use super::beside::{Beside, NearLandmark};
 use super::facts::{Across, PlaceAmong, Side, Sight};
 use super::relation::{Relation, relation};
 use crate::goals::{landmark_name, side_name};
-use crate::messages::{Speaker, messages};
+use crate::messages::{Speaker, messages_of};
 use crate::who::who;
 use cosfly_claims::Language;
 use cosfly_random::Seed;
@@ -12,7 +12,7 @@ use cosfly_random::Seed;
 /// One sentence for the pilot that holds in this picture. The wording is the seed's.
 pub fn instruction(sight: &Sight, language: Language, seed: Seed) -> String {
     let words = &mut seed.child(language.code(), 0).stream("words");
-    sentence(sight, &mut Speaker { messages: messages(language), words })
+    sentence(sight, &mut Speaker { messages: messages_of(language, sight.runs), words })
 }
 
 /// `Follow the person in a red top and blue trousers, ahead of two others, walking away from the camera.`
