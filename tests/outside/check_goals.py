@@ -12,7 +12,7 @@ import re
 from collections import Counter, defaultdict
 
 import numpy as np
-from goal_words import read, skeleton
+from goal_words import as_walked, read, skeleton
 from shared import Town, end_with, flown, is_in, pixel, place, rows, turned
 from walk_words import Way, when_said, wrongs
 
@@ -217,6 +217,11 @@ def judge_descriptions(captions, flights, wrong):
             continue
         standing_s = (flight.speed < 0.05).sum() * flight.dt
         wrong += [f"{row['trajectory_id']} `{text}`: {it}" for it in wrongs(text, row["language"], flight.way, standing_s)]
+        pace = flight.speed[flight.speed >= 0.05].mean()
+        words = r"\bwalk(s|ing)?\b|on foot|走|步行" if pace > 2.6 else r"\brun(s|ning)?\b|跑" if pace < 1.8 else "(?!)"
+        if re.search(words, text):
+            wrong.append(f"{row['trajectory_id']} `{text}`: the pace is {pace:.1f} m/s")
+        text = as_walked(text)
         times[row["trajectory_id"]].add(when_said(text))
         said[(row["language"], when_said(text), re.search(r"turns [a-z, ]*around|掉头", text) is not None)] += 1
     wrong += [f"{name}: its descriptions say that the first turn comes {found}" for name, found in times.items() if len(found) > 1]

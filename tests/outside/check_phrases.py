@@ -17,7 +17,7 @@ KINDS = {
     "pedestrian": ("person", "人"), "bicycle": ("cyclist", "骑车人"), "motorcycle": ("motorcyclist", "摩托车手"),
     "car": ("car", "汽车"), "van": ("van", "面包车"), "truck": ("lorry", "卡车"), "bus": ("bus", "公交车"), "drone": ("drone", "无人机"),
     "child": ("child", "孩子"), "elder": ("old person", "老人"), "wheelchair": ("wheelchair user", "轮椅使用者"), "sitter": ("seated person", "就座者"),
-    "push_chair": ("person with a push-chair", "推婴儿车者"), "dog_walker": ("dog walker", "遛狗者"), "runner": ("runner", "跑步者"),
+    "push_chair": ("person with a push-chair", "推婴儿车者"), "dog_walker": ("dog walker", "遛狗者"), "runner": ("runner", "跑步者"), "e_scooter": ("e-scooter rider", "骑滑板车的人"),
 }
 PEOPLE = ("pedestrian", "child", "elder", "wheelchair", "sitter", "push_chair", "dog_walker", "runner")
 ENGLISH = re.compile(
@@ -42,7 +42,7 @@ def chinese(text):
     colour = {zh: en for en, zh in IN_CHINESE.items()}
     any_colour = "|".join(colour)
     found = {name: re.search(pattern, text) for name, pattern in {
-        "top": f"穿({any_colour})上衣" if kind in (*PEOPLE, "bicycle", "motorcycle") else f"({any_colour})", "trousers": f"({any_colour})裤子",
+        "top": f"穿({any_colour})上衣" if kind in (*PEOPLE, "bicycle", "motorcycle", "e_scooter") else f"({any_colour})", "trousers": f"({any_colour})裤子",
         "part": "画面(左侧|右侧|中间)", "motion": "(正在行走|正在行驶|站着不动|停着不动)", "backpack": "背着背包", "shoulder_bag": "挎着单肩包"}.items()}
     word = lambda name: found[name] and found[name].group(1)
     return {"kind": kind, "motion": {"正在行走": True, "正在行驶": True, "站着不动": False, "停着不动": False}.get(word("motion")),

@@ -12,6 +12,7 @@ import sys
 from collections import Counter
 
 import numpy as np
+from goal_words import as_walked
 from shared import IN_CHINESE, Town, flown, pixel, place, require, rows, turned
 
 NUMBERS = {word: count for words in (["no", "one", "two", "three", "four", "five", "six"], "零一两三四五六") for count, word in enumerate(words)}
@@ -187,7 +188,7 @@ def main():
         people = [it for it in seen[name, last] if it["kind"] in on_road]
         picture = Picture(flights[name], frames[name][last], frames[name][start], people, towns[flights[name]["town"]])
         found = []
-        for text in filter(None, (row["instruction_en"], row["instruction_zh"])):
+        for text in map(as_walked, filter(None, (row["instruction_en"], row["instruction_zh"]))):
             found = list(claims(text, picture))
             counts.update(claim for claim, _ in found)
             wrong += [f"{claim} in frame {last} of {name}: {text}" for claim, holds in found if not holds]

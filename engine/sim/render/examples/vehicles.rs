@@ -19,7 +19,7 @@ const PARK: [(BodyKind, [f64; 3]); 17] = [
     (BodyKind::Child, [0.35, 0.35, 1.15]),
     (BodyKind::Bus, [12.0, 2.55, 3.1]),
     (BodyKind::Car, [4.6, 1.85, 1.46]),
-    (BodyKind::Bicycle, [1.8, 0.65, 1.75]),
+    (BodyKind::EScooter, [1.15, 0.61, 1.87]),
     (BodyKind::Van, [5.4, 2.0, 2.4]),
     (BodyKind::Car, [4.2, 1.8, 1.5]),
     (BodyKind::Motorcycle, [2.1, 0.8, 1.6]),

@@ -56,6 +56,16 @@ pub struct MixConfig {
     /// Bicycles. Default 0.12.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub bicycles: f64,
+    /// Electric scooters, ridden standing. Default 0.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    #[serde(skip_serializing_if = "is_none")]
+    pub e_scooters: f64,
+}
+
+/// Whether there are none: the share is not written then, so that it is in no key.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
+fn is_none(share: &f64) -> bool {
+    *share == 0.0
 }
 
 impl Default for VehicleConfig {
@@ -74,7 +84,7 @@ impl Default for VehicleConfig {
 
 impl Default for MixConfig {
     fn default() -> Self {
-        Self { cars: 0.68, vans: 0.09, trucks: 0.04, buses: 0.03, motorcycles: 0.04, bicycles: 0.12 }
+        Self { cars: 0.68, vans: 0.09, trucks: 0.04, buses: 0.03, motorcycles: 0.04, bicycles: 0.12, e_scooters: 0.0 }
     }
 }
 
@@ -89,16 +99,17 @@ impl VehicleConfig {
         within(&["speed_deviation_share"], self.speed_deviation_share, 0.0, 0.3)?;
         within(&["headway_s"], self.headway_s, 0.5, 5.0)?;
         within(&["parked_share"], self.parked_share, 0.0, 1.0)?;
-        let MixConfig { cars, vans, trucks, buses, motorcycles, bicycles } = self.mix;
-        let paths: [&'static [&'static str]; 6] = [
+        let MixConfig { cars, vans, trucks, buses, motorcycles, bicycles, e_scooters } = self.mix;
+        let paths: [&'static [&'static str]; 7] = [
             &["mix", "cars"],
             &["mix", "vans"],
             &["mix", "trucks"],
             &["mix", "buses"],
             &["mix", "motorcycles"],
             &["mix", "bicycles"],
+            &["mix", "e_scooters"],
         ];
-        let shares = [cars, vans, trucks, buses, motorcycles, bicycles];
+        let shares = [cars, vans, trucks, buses, motorcycles, bicycles, e_scooters];
         for (path, share) in paths.into_iter().zip(shares) {
             within(path, share, 0.0, 1.0)?;
         }
@@ -138,7 +149,15 @@ mod tests {
         assert_eq!(refusal(|_| ()), None);
         assert_eq!(refusal(|it| it.headway_s = f64::NAN).unwrap().0, "headway_s");
         assert_eq!(refusal(|it| it.mix.buses = -1.0).unwrap().0, "mix.buses");
-        let none = MixConfig { cars: 0.0, vans: 0.0, trucks: 0.0, buses: 0.0, motorcycles: 0.0, bicycles: 0.0 };
+        let none = MixConfig {
+            cars: 0.0,
+            vans: 0.0,
+            trucks: 0.0,
+            buses: 0.0,
+            motorcycles: 0.0,
+            bicycles: 0.0,
+            e_scooters: 0.0,
+        };
         assert!(VehicleConfig { mix: none, ..VehicleConfig::default() }.validate().is_err());
         assert_eq!(refusal(|it| it.area_m = Some([0.0, 0.0, -1.0, 5.0])).unwrap().0, "area_m");
     }

@@ -18,7 +18,7 @@ pub(crate) fn size_m(kind: BodyKind, random: &mut RandomStream) -> DVec3 {
 
 /// A kind by the shares of the mix.
 pub(crate) fn draw_kind(mix: &MixConfig, random: &mut RandomStream) -> BodyKind {
-    let MixConfig { cars, vans, trucks, buses, motorcycles, bicycles } = *mix;
+    let MixConfig { cars, vans, trucks, buses, motorcycles, bicycles, e_scooters } = *mix;
     let shares = [
         (BodyKind::Car, cars),
         (BodyKind::Van, vans),
@@ -26,6 +26,7 @@ pub(crate) fn draw_kind(mix: &MixConfig, random: &mut RandomStream) -> BodyKind 
         (BodyKind::Bus, buses),
         (BodyKind::Motorcycle, motorcycles),
         (BodyKind::Bicycle, bicycles),
+        (BodyKind::EScooter, e_scooters),
     ];
     let mut left = random.unit() * shares.iter().map(|(_, share)| share).sum::<f64>();
     let drawn = shares.into_iter().find(|(_, share)| {
@@ -37,5 +38,30 @@ pub(crate) fn draw_kind(mix: &MixConfig, random: &mut RandomStream) -> BodyKind 
 
 /// Whether a kind of vehicle drives on a kind of lane.
 pub(crate) fn drives_on(kind: BodyKind, lane: LaneKind) -> bool {
-    lane == LaneKind::Driving || kind == BodyKind::Bicycle
+    lane == LaneKind::Driving || keeps_to_edges(kind)
+}
+
+/// Whether a kind rides at the edge of lanes that it shares, and on those of bicycles.
+pub(crate) fn keeps_to_edges(kind: BodyKind) -> bool {
+    matches!(kind, BodyKind::Bicycle | BodyKind::EScooter)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cosfly_frames::Seed;
+
+    #[test]
+    fn e_scooters_come_by_their_share_and_change_no_other_draw_without_one() {
+        let drawn = |mix: &MixConfig| {
+            let mut random = Seed([3; 32]).stream("kinds");
+            (0..200).map(|_| draw_kind(mix, &mut random)).collect::<Vec<_>>()
+        };
+        let usual = MixConfig::default();
+        assert!(usual.e_scooters == 0.0 && !drawn(&usual).contains(&BodyKind::EScooter));
+        let some = drawn(&MixConfig { e_scooters: 1.0, ..usual.clone() });
+        let count = some.iter().filter(|kind| **kind == BodyKind::EScooter).count();
+        assert!((70..130).contains(&count), "{count} of 200");
+        assert!(drives_on(BodyKind::EScooter, LaneKind::Biking) && !drives_on(BodyKind::Car, LaneKind::Biking));
+    }
 }

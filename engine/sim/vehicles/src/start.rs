@@ -1,7 +1,7 @@
 //! Where vehicles begin.
 
 use crate::config::VehicleConfig;
-use crate::kinds::{draw_kind, drives_on, size_m};
+use crate::kinds::{draw_kind, drives_on, keeps_to_edges, size_m};
 use crate::network::Network;
 use crate::outlines::{Solid, meet};
 use crate::route::Route;
@@ -90,6 +90,6 @@ pub(crate) fn is_free(vehicle: &Vehicle, others: &[Vehicle], apart_m: f64) -> bo
 
 /// Distance of a vehicle from the middle of its lanes to the right: bicycles ride at the edge of lanes that they share.
 fn aside_m(network: &Network, lane: LaneKind, lane_m: f64, kind: BodyKind, width_m: f64) -> f64 {
-    let is_shared = kind == BodyKind::Bicycle && lane == LaneKind::Driving;
+    let is_shared = keeps_to_edges(kind) && lane == LaneKind::Driving;
     if is_shared { network.kerb * (0.5 * (lane_m - width_m) - FROM_EDGE_M).max(0.0) } else { 0.0 }
 }

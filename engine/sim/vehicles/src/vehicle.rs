@@ -1,9 +1,9 @@
 //! [`Vehicle`]: one simulated vehicle, where it is and what it does.
 
-use crate::kinds::driving;
+use crate::kinds::{driving, keeps_to_edges};
 use crate::network::Network;
 use crate::route::Route;
-use cosfly_domain::{BodyKind, BodyPlan, Driving};
+use cosfly_domain::{BodyPlan, Driving};
 use cosfly_frames::{RandomStream, TargetState};
 
 /// Room that a vehicle needs beside itself on its lane, metres.
@@ -70,7 +70,7 @@ impl Vehicle {
 
     /// Width of lanes that the vehicle prefers, metres.
     pub fn needed_m(&self) -> f64 {
-        if self.plan.kind == BodyKind::Bicycle { 0.0 } else { self.plan.size_m.y + 2.0 * BESIDE_M }
+        if keeps_to_edges(self.plan.kind) { 0.0 } else { self.plan.size_m.y + 2.0 * BESIDE_M }
     }
 
     pub fn drives(&self) -> bool {

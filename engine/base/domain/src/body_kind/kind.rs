@@ -39,6 +39,8 @@ pub enum BodyKind {
     Sitter,
     /// A person who runs.
     Runner,
+    /// An electric scooter with a board, and its rider who stands.
+    EScooter,
 }
 
 impl BodyKind {
@@ -59,6 +61,7 @@ impl BodyKind {
         Self::DogWalker,
         Self::Sitter,
         Self::Runner,
+        Self::EScooter,
     ];
 
     /// Row of the kind.
@@ -79,6 +82,7 @@ impl BodyKind {
             Self::DogWalker => &super::dog_walker::ROW,
             Self::Sitter => &super::sitter::ROW,
             Self::Runner => &super::runner::ROW,
+            Self::EScooter => &super::e_scooter::ROW,
         }
     }
 

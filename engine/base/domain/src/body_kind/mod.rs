@@ -8,6 +8,7 @@ mod car;
 mod child;
 mod dog_walker;
 mod drone;
+mod e_scooter;
 mod elder;
 mod kind;
 mod motorcycle;

@@ -40,6 +40,17 @@ pub(super) const fn people([name, noun]: [&'static str; 2], class_size_m: [f64; 
     BodyKindRow { name, noun, class_size_m, walking: Some(walking), ..PERSON }
 }
 
+/// A vehicle of a name with lamps, without a person whose clothes are seen.
+pub(super) const fn vehicle(
+    name: &'static str,
+    label: SemanticLabel,
+    class_size_m: [f64; 3],
+    driving: Driving,
+) -> BodyKindRow {
+    let (driving, lamps) = (Some(driving), Some([1.0, 1.0]));
+    BodyKindRow { name, noun: name, label, is_dressed: false, class_size_m, driving, walking: None, lamps }
+}
+
 /// Size and pace of a kind of people in a crowd.
 #[derive(Clone, Copy, Debug)]
 pub struct Walking {

@@ -68,7 +68,7 @@ impl Livery {
         let mut colours = [[0.0; 3]; Region::COUNT];
         // The frame of a two-wheeler is seen as its paint, all the rest is black.
         let has_dog = matches!(body, BodyShape::Vehicle { kind: BodyKind::DogWalker, .. });
-        let is_light = matches!(body, BodyShape::Vehicle { kind: BodyKind::Bicycle, .. });
+        let is_light = matches!(body, BodyShape::Vehicle { kind: BodyKind::Bicycle | BodyKind::EScooter, .. });
         for (region, colour) in [
             (Region::Paint, if has_dog { self.fur } else { self.paint.linear_rgb }),
             (Region::Cargo, self.cargo.linear_rgb),

@@ -1,4 +1,4 @@
-//! Bicycles and motorcycles with their riders. All sizes follow the box.
+//! Bicycles, electric scooters and motorcycles with their riders. All sizes follow the box.
 
 use super::model::Model;
 use crate::Clothes;
@@ -12,6 +12,7 @@ const STANDING_M: f64 = 1.72;
 
 /// Sizes that the shares of both vehicles are made for, metres.
 const BICYCLE_M: DVec3 = DVec3::new(1.80, 0.65, 1.75);
+const E_SCOOTER_M: DVec3 = DVec3::new(1.15, 0.61, 1.87);
 const MOTORCYCLE_M: DVec3 = DVec3::new(2.10, 0.80, 1.60);
 
 /// Places of a rider, in box heights forward and up.
@@ -141,6 +142,35 @@ pub(super) fn scooter(model: &mut Model<'_>, clothes: &Clothes) {
         helmet: true,
     };
     rider(&mut model.rider(MOTORCYCLE_M), &seat, forearm(clothes));
+}
+
+/// An electric scooter: a low board between two small wheels and a tall stem; its rider stands with one foot ahead.
+pub(super) fn e_scooter(model: &mut Model<'_>, clothes: &Clothes) {
+    let stretch = model.size_m / E_SCOOTER_M;
+    let at = |x_m: f64, z_m: f64| stretch * DVec3::new(x_m, 0.0, z_m);
+    let share = |x_m: f64, z_m: f64| [x_m / E_SCOOTER_M.x, z_m / E_SCOOTER_M.z];
+    let radius_m = 0.115;
+    let axle_m = 0.5 * E_SCOOTER_M.x - radius_m;
+    for sign in [-1.0, 1.0] {
+        model.solid_wheel(sign * axle_m * stretch.x, radius_m * stretch, 0.05 * stretch.y);
+    }
+    let board = [share(-0.46, 0.13), share(-0.30, 0.09), share(0.26, 0.09), share(0.34, 0.15), share(-0.42, 0.17)];
+    model.hull(Region::Paint, &board, [0.30, 0.30]);
+    let (thick_m, grip_m) = (0.05 * stretch.min_element(), [0.33, 1.08]);
+    model.bar(Region::Paint, at(axle_m, radius_m), at(0.40, 0.24), thick_m);
+    model.bar(Region::Paint, at(0.30, 0.12), at(0.40, 0.24), thick_m);
+    model.bar(Region::Metal, at(0.40, 0.24), at(grip_m[0], grip_m[1]), 0.8 * thick_m);
+    handlebar(model, grip_m[0] * stretch.x, grip_m[1] * stretch.z, 0.7 * thick_m);
+    let seat = Seat {
+        hip: [-0.05, 0.6],
+        shoulder: [-0.015, 0.835],
+        hand: [0.165, 0.59],
+        half_grip: 0.125,
+        feet: [[0.045, 0.088], [-0.10, 0.088]],
+        half_stand: 0.034,
+        helmet: false,
+    };
+    rider(&mut model.rider(E_SCOOTER_M), &seat, forearm(clothes));
 }
 
 /// A lamp in the middle plane at `x` and between two heights, in metres of a motorcycle's usual box.

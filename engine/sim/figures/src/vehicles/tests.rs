@@ -17,7 +17,8 @@ const BOUND_M: f64 = 0.01;
 /// Most triangles of a car or van.
 const MOST_TRIANGLES: usize = 1000;
 
-const KINDS: [(BodyKind, [f64; 3], SemanticLabel); 8] = [
+const KINDS: [(BodyKind, [f64; 3], SemanticLabel); 9] = [
+    (BodyKind::EScooter, [1.15, 0.61, 1.87], SemanticLabel::Bicycle),
     (BodyKind::Bicycle, [1.8, 0.65, 1.75], SemanticLabel::Bicycle),
     (BodyKind::Motorcycle, [2.1, 0.8, 1.6], SemanticLabel::Motorcycle),
     (BodyKind::Car, [4.5, 1.85, 1.5], SemanticLabel::Car),
@@ -118,7 +119,8 @@ fn faces_look_outward_and_have_the_labels_of_their_kind() {
         let mut triangles = vec![];
         figure(&walker, &Clothes::draw(&walker.clothes_seed), 0, &mut triangles);
         let labels: std::collections::BTreeSet<_> = triangles.iter().map(|it| walker.body.label(it.region)).collect();
-        let is_ridden = matches!(kind, BodyKind::Bicycle | BodyKind::Motorcycle | BodyKind::Wheelchair);
+        let is_ridden =
+            matches!(kind, BodyKind::Bicycle | BodyKind::EScooter | BodyKind::Motorcycle | BodyKind::Wheelchair);
         assert!(labels.contains(&label), "{kind:?}");
         assert_eq!(labels.contains(&SemanticLabel::Rider), is_ridden, "{kind:?}");
         assert_eq!(labels.len(), 1 + usize::from(is_ridden));

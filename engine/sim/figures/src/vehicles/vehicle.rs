@@ -23,6 +23,7 @@ pub fn add(
     let phase_rad = walker.gait_phase_rad;
     match kind {
         BodyKind::Bicycle => riders::bicycle(&mut model, clothes, phase_rad),
+        BodyKind::EScooter => riders::e_scooter(&mut model, clothes),
         BodyKind::Motorcycle if looks.chance(0.4) => riders::scooter(&mut model, clothes),
         BodyKind::Motorcycle => riders::motorcycle(&mut model, clothes),
         BodyKind::Truck => lorries::lorry(&mut model, phase_rad, &mut looks),
