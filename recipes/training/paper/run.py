@@ -14,12 +14,9 @@ from __future__ import annotations
 
 import argparse
 import hashlib
-import os
-import subprocess
 import sys
-import time
 from pathlib import Path
-from typing import BinaryIO, Callable, Dict, List, Optional
+from typing import Dict, List
 
 import numpy as np
 
@@ -30,6 +27,7 @@ except ImportError:
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))  # boxes.py
 import report
+from jobs import Jobs, run_recipe, write_whole
 from rows import PERTURBED, EXPERT, ROWS, ZERO, PaperWindows, Row, trained
 
 # Pictures in which a person has 16 pixels of height, in the full look.
@@ -41,43 +39,8 @@ def make_data(chosen: argparse.Namespace) -> Path:
         return chosen.data
     folder = chosen.out / ("data_with_pictures" if chosen.pictures else "data")
     settings = (WITH_PICTURES if chosen.pictures else []) + chosen.set
-    command = [chosen.cosfly, "run", str(Path(__file__).parent / "data.toml"), "--out", str(folder), "--quiet"]
-    try:
-        done = subprocess.run(command + [part for it in settings for part in ("--set", it)])
-    except OSError as error:
-        raise SystemExit(f"cannot start `{chosen.cosfly}`: {error}; name the program with `--cosfly`") from None
-    if done.returncode:
-        raise SystemExit(done.returncode)
+    run_recipe(chosen.cosfly, "data.toml", folder, settings)
     return folder
-
-
-def write_whole(path: Path, write: Callable[[BinaryIO], object]) -> None:
-    """A file that is there is whole."""
-    part = path.with_name(path.name + ".part")
-    with part.open("wb") as file:
-        write(file)
-    os.replace(part, path)
-
-
-class Jobs:
-    """Results of jobs as files; no job begins after the minutes are over."""
-
-    def __init__(self, folder: Path, minutes: Optional[float]) -> None:
-        self.folder, self.end = folder, None if minutes is None else time.monotonic() + 60 * minutes
-        self.left = 0
-        folder.mkdir(parents=True, exist_ok=True)
-
-    def result(self, name: str, make: Callable[[], np.ndarray]) -> Optional[np.ndarray]:
-        path = self.folder / f"{name}.npy"
-        if not path.exists():
-            if self.end is not None and time.monotonic() > self.end:
-                self.left += 1
-                return None
-            began = time.monotonic()
-            made = make()
-            write_whole(path, lambda file: np.save(file, made))
-            print(f"{name}: {time.monotonic() - began:.1f} s", file=sys.stderr, flush=True)
-        return np.load(path)
 
 
 def scene_job(chosen: argparse.Namespace, pack: "object", lessons: PaperWindows, judged: PaperWindows, seed: int) -> np.ndarray:
