@@ -4,9 +4,10 @@
     python recipes/training/paper/kinds.py --out out/kinds
     python recipes/training/paper/kinds.py --out out/kinds --unseen campus villas     # other unseen kinds, on the same data
 
-Makes towns of every kind and flights in them, in pictures of 128 x 72, and trains one small network on each kind and on all of them, with as
-many frames and steps. Needs `cosfly` on the path, the package cosfly, torch 1.13 or newer and numpy. A network is a file: what is there is
-not trained again. Writes `report.md`, and prints it. The book's page "Several kinds of places" has the figures.
+Makes towns of every kind and flights in them, in pictures of 128 x 72. Trains a small network on each single kind, briefly; then, longer, on
+the best single kind and on all of them, with as many frames and steps. Needs `cosfly` on the path, the package cosfly, torch 1.13 or newer
+and numpy. A network is a file: what is there is not trained again. Writes `report.md`, and prints it. The book's page "Several kinds of
+places" has the figures.
 """
 
 from __future__ import annotations
@@ -146,13 +147,16 @@ def judge(scene: Scene, data: Data, flights: List[np.ndarray]) -> np.ndarray:
     return np.array(found, np.float64)
 
 
-def metrics(sums: np.ndarray, is_label: np.ndarray) -> np.ndarray:
-    """`METRICS` of sums of flights' scores, (..., columns) -> (..., metrics)."""
+def overlaps_of_labels(sums: np.ndarray) -> np.ndarray:
+    """Right pixels over those that have the label or are told to, (..., columns) -> (..., labels)."""
     table = sums[..., TABLE:].reshape(*sums.shape[:-1], LABELS, LABELS)
     right = np.diagonal(table, axis1=-2, axis2=-1)
-    either = table.sum(axis=-1) + table.sum(axis=-2) - right
-    shares = (right / np.maximum(either, 1))[..., is_label].mean(axis=-1)
-    return np.stack([sums[..., ERROR] / sums[..., NEAR], sums[..., WITHIN] / sums[..., NEAR], shares], axis=-1)
+    return right / np.maximum(table.sum(axis=-1) + table.sum(axis=-2) - right, 1)
+
+
+def metrics(sums: np.ndarray, is_label: np.ndarray) -> np.ndarray:
+    """`METRICS` of sums of flights' scores, (..., columns) -> (..., metrics)."""
+    return np.stack([sums[..., ERROR] / sums[..., NEAR], sums[..., WITHIN] / sums[..., NEAR], overlaps_of_labels(sums)[..., is_label].mean(axis=-1)], axis=-1)
 
 
 def resampled(scores: np.ndarray, drawn: np.ndarray, is_label: np.ndarray, seed: int) -> np.ndarray:
@@ -178,16 +182,23 @@ class Comparison:
     def __init__(self, kinds: np.ndarray) -> None:
         self.kinds, self.scores = kinds, {}  # type: np.ndarray, Dict[str, np.ndarray]
 
+    def add(self, name: str, seed: np.ndarray) -> None:
+        self.scores[name] = np.concatenate([self.scores[name], seed[None]]) if name in self.scores else seed[None]
+
+    def shares(self) -> np.ndarray:
+        """Of each label, of the judged pixels."""
+        pixels = next(iter(self.scores.values()))[0, :, TABLE:].sum(axis=0).reshape(LABELS, LABELS).sum(axis=1)
+        return pixels / pixels.sum()
+
     def labels(self) -> np.ndarray:
         """The labels that count."""
-        pixels = next(iter(self.scores.values()))[0, :, TABLE:].sum(axis=0).reshape(LABELS, LABELS).sum(axis=1)
-        return pixels > LEAST_SHARE * pixels.sum()
+        return self.shares() > LEAST_SHARE
 
     def mean(self, name: str, part: slice = slice(None)) -> np.ndarray:
         return metrics(self.scores[name][:, part].sum(axis=1), self.labels()).mean(axis=0)
 
     def best(self, names: List[str], metric: int) -> str:
-        """The best on the judged flights themselves: nobody could choose better."""
+        """The best on the judged flights themselves: a choice in favour of the single kinds."""
         return max(names, key=lambda name: SIGN[metric] * self.mean(name)[metric])
 
     def table(self, names: List[str]) -> List[str]:
@@ -196,6 +207,13 @@ class Comparison:
         for name in names:
             of = zip(self.mean(name), resampled(self.scores[name], drawn, self.labels(), 2).T)
             lines.append(f"| {name} | {len(self.scores[name])} | {' | '.join(cell(*it) for it in of)} |")
+        return lines
+
+    def by_label(self, names: List[str]) -> List[str]:
+        lines = [f"| label | pixels, % | {' | '.join(names)} |", f"| ---: | ---: |{' ---: |' * len(names)}"]
+        found = [overlaps_of_labels(self.scores[name].sum(axis=1)).mean(axis=0) for name in names]
+        for label in np.flatnonzero(self.labels()):
+            lines.append(f"| {label} | {100 * self.shares()[label]:.1f} | {' | '.join(f'{it[label]:.2f}' for it in found)} |")
         return lines
 
     def findings(self, several: str, singles: List[str]) -> List[str]:
@@ -229,15 +247,16 @@ def arguments() -> argparse.Namespace:
     add("--first-town", type=int, default=1, help="seed of the first town of each kind (default 1)")
     add("--set", action="append", default=[], metavar="KEY=VALUE", help="setting of kinds.toml, as of `cosfly run`")
     add("--cosfly", default="cosfly", help="the program (default cosfly)")
-    add("--steps", type=int, default=1200, help="steps of training (default 1200)")
+    add("--brief-steps", type=int, default=1200, help="steps of the networks by which the best single kind is chosen (default 1200)")
+    add("--steps", type=int, default=2400, help="steps of the networks that are compared (default 2400)")
     add("--seeds", type=int, default=3, help="networks of the several kinds and of the best one (default 3)")
     add("--minutes", type=float, help="begin no job after so many minutes; run again to go on")
     chosen = parser.parse_args()
     chosen.kinds = chosen.kinds or [it for it in KINDS if it not in chosen.unseen]
     if len(set(chosen.kinds) | set(chosen.unseen)) < len(chosen.kinds) + 2 or len(chosen.kinds) < 2:
         parser.error(f"two or more different kinds to learn from and two others to judge, not {' '.join(chosen.kinds)} and {' '.join(chosen.unseen)}")
-    if min(chosen.towns, chosen.steps, chosen.seeds) < 1 or chosen.first_town < 0:
-        parser.error("--towns, --steps and --seeds are 1 or more, --first-town is 0 or more")
+    if min(chosen.towns, chosen.brief_steps, chosen.steps, chosen.seeds) < 1 or chosen.first_town < 0:
+        parser.error("--towns, --steps, --brief-steps and --seeds are 1 or more, --first-town is 0 or more")
     return chosen
 
 
@@ -267,37 +286,34 @@ def main() -> None:
     lessons = {kind: data.flights[kind][:count] for kind in chosen.kinds}
     lessons[several] = [flights[at] for at in range(count) for flights in lessons.values()][:count]
     judged = {kind: [rows[::2] for rows in data.flights[kind]] for kind in chosen.unseen}
-    key = f"{identity} {count} {chosen.steps} {torch.__version__}"
+    key = f"{identity} {count} {torch.__version__}"
     jobs = Jobs(chosen.out / "networks" / hashlib.sha256(key.encode()).hexdigest()[:12], chosen.minutes)
     compared = Comparison(np.repeat(chosen.unseen, [len(it) for it in judged.values()]))
 
-    def learn(name: str) -> None:
-        """One more seed."""
-        seed = len(compared.scores.get(name, ()))
-        file = f"{'_'.join(chosen.kinds if name == several else [name])}-{seed}"
-        file = file if len(file) < 80 else f"kinds_{hashlib.sha256(file.encode()).hexdigest()[:12]}-{seed}"
-        numbers = jobs.result(file, lambda: train(data, lessons[name], chosen.steps, seed).numbers())
-        if numbers is not None:
-            scene = Scene().set_numbers(numbers)
-            found = [jobs.result(f"{file}-{kind}", lambda: judge(scene, data, flights)) for kind, flights in judged.items()]
-            if all(it is not None for it in found):
-                compared.scores[name] = np.concatenate([compared.scores.get(name, np.empty((0, len(compared.kinds), found[0].shape[1]))), [np.concatenate(found)]])
+    def learn(name: str, lesson: str, steps: int, seed: int) -> None:
+        of = lesson if lesson != several else f"{len(chosen.kinds)}_kinds_{hashlib.sha256(' '.join(chosen.kinds).encode()).hexdigest()[:12]}"
+        file = f"{of}-{steps}-{seed}"
+        numbers = jobs.result(file, lambda: train(data, lessons[lesson], steps, seed).numbers())
+        found = [jobs.result(f"{file}-{kind}", lambda: judge(Scene().set_numbers(numbers), data, flights)) for kind, flights in judged.items()]
+        if all(it is not None for it in found):
+            compared.add(name, np.concatenate(found))
 
-    for name in [several, *chosen.kinds]:
-        learn(name)
-    while not jobs.left and len(compared.scores[several]) < chosen.seeds:
-        learn(several)
-    best = lambda: {compared.best(chosen.kinds, it) for it in range(len(METRICS))}
-    # The best single kind has all seeds, and no other has a better mean of fewer.
-    while not jobs.left and any(len(compared.scores[it]) < chosen.seeds for it in best()):
-        learn(min(best(), key=lambda name: len(compared.scores[name])))
+    briefly = {f"{kind}, briefly": kind for kind in chosen.kinds}
+    for name, kind in briefly.items():
+        learn(name, kind, chosen.brief_steps, 0)
+    if not jobs.left:
+        best = sorted({briefly[compared.best(list(briefly), metric)] for metric in range(len(METRICS))})
+        for seed in range(chosen.seeds):
+            for name in [several, *best]:
+                learn(name, name, chosen.steps, seed)
     if jobs.left:
         raise SystemExit(f"the minutes are over: run the command again to go on; networks and scores are in {jobs.folder}")
-    order = sorted(chosen.kinds, key=lambda name: compared.mean(name)[0])
     text = "\n".join([
-        f"{len(compared.kinds)} flights of {' and '.join(chosen.unseen)} judged, kinds that no network has seen; each learnt from "
-        f"{sum(map(len, lessons[several]))} frames\nin {chosen.steps} steps. In brackets the middle 95 % of {RESAMPLES} resamples of flights and of seeds.",
-        "", *compared.table([several, *order]), "", *compared.findings(several, chosen.kinds), "",
+        f"{len(compared.kinds)} flights of {' and '.join(chosen.unseen)} judged, kinds that no network has seen. Each learnt from "
+        f"{sum(map(len, lessons[several]))} frames in {chosen.steps} steps,\n*briefly* in {chosen.brief_steps}. In brackets the middle 95 % of {RESAMPLES} "
+        "resamples of flights and of seeds.\n",
+        *compared.table([several, *best, *sorted(briefly, key=lambda name: compared.mean(name)[0])]), "",
+        *compared.by_label([several, *best]), "", *compared.findings(several, best), "",
     ])  # fmt: skip
     write_whole(chosen.out / "report.md", lambda file: file.write(text.encode()))
     print(text)
