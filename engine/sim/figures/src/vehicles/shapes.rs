@@ -91,7 +91,7 @@ macro_rules! car {
     };
 }
 
-/// Shapes of passenger cars.
+/// Shapes of passenger cars. Of those in traffic, a quarter each are saloons, hatchbacks and off-road cars.
 pub(super) const CARS: [Shape; 8] = [
     // A small hatchback.
     Shape {
@@ -110,9 +110,9 @@ pub(super) const CARS: [Shape; 8] = [
         sections: car![
             deck(-0.5, 0.38, 0.44, [P, P, P]),
             deck(-0.49, 0.53, 0.61, [P, P, P]),
-            deck(-0.474, 0.62, 0.69, [P, P, G]),
-            roof(-0.415, 0.64, 0.945, [P, P, P]),
-            roof(-0.335, 0.645, 0.975, [P, G, P]),
+            deck(-0.472, 0.62, 0.69, [P, P, G]),
+            roof(-0.385, 0.64, 0.935, [P, P, P]),
+            roof(-0.315, 0.645, 0.968, [P, G, P]),
             roof(-0.105, 0.64, 1.0, [P, T, P]),
             roof(-0.078, 0.64, 1.0, [P, G, P]),
             roof(0.03, 0.63, 0.965, [P, G, G])
@@ -121,9 +121,9 @@ pub(super) const CARS: [Shape; 8] = [
     },
     // A saloon.
     Shape {
-        share: 0.26,
-        lengths_m: [4.3, 9.0],
-        heights_m: [0.0, 1.54],
+        share: 1.2,
+        lengths_m: [4.1, 9.0],
+        heights_m: [0.0, 1.58],
         foot: 0.12,
         tumble: 0.70,
         drop: 0.08,
@@ -163,8 +163,8 @@ pub(super) const CARS: [Shape; 8] = [
             deck(-0.5, 0.39, 0.46, [P, P, P]),
             deck(-0.492, 0.56, 0.64, [P, P, P]),
             deck(-0.48, 0.62, 0.69, [P, P, G]),
-            roof(-0.425, 0.64, 0.93, [P, P, P]),
-            roof(-0.39, 0.645, 0.955, [P, G, P]),
+            roof(-0.405, 0.64, 0.925, [P, P, P]),
+            roof(-0.365, 0.645, 0.952, [P, G, P]),
             roof(-0.235, 0.645, 0.985, [P, T, P]),
             roof(-0.215, 0.645, 0.99, [P, G, P]),
             roof(-0.095, 0.64, 1.0, [P, T, P]),
@@ -191,8 +191,8 @@ pub(super) const CARS: [Shape; 8] = [
             deck(-0.5, 0.40, 0.46, [P, P, P]),
             deck(-0.492, 0.57, 0.63, [P, P, P]),
             deck(-0.48, 0.625, 0.68, [P, P, G]),
-            roof(-0.43, 0.64, 0.93, [P, P, P]),
-            roof(-0.375, 0.645, 0.965, [P, G, P]),
+            roof(-0.405, 0.64, 0.925, [P, P, P]),
+            roof(-0.35, 0.645, 0.96, [P, G, P]),
             roof(-0.105, 0.64, 1.0, [P, T, P]),
             roof(-0.08, 0.64, 1.0, [P, G, P]),
             roof(0.015, 0.63, 0.965, [P, G, G])
@@ -201,9 +201,9 @@ pub(super) const CARS: [Shape; 8] = [
     },
     // A coupe whose roof falls to the tail.
     Shape {
-        share: 0.06,
-        lengths_m: [4.1, 4.8],
-        heights_m: [0.0, 1.48],
+        share: 0.24,
+        lengths_m: [4.1, 9.0],
+        heights_m: [0.0, 1.52],
         foot: 0.115,
         tumble: 0.68,
         drop: 0.09,
@@ -225,7 +225,7 @@ pub(super) const CARS: [Shape; 8] = [
     },
     // A people carrier.
     Shape {
-        share: 0.16,
+        share: 0.06,
         lengths_m: [4.1, 9.0],
         heights_m: [1.56, 9.0],
         foot: 0.125,
@@ -294,8 +294,8 @@ pub(super) const CARS: [Shape; 8] = [
             deck(-0.5, 0.38, 0.43, [P, P, P]),
             deck(-0.493, 0.54, 0.60, [P, P, P]),
             deck(-0.483, 0.60, 0.655, [P, P, G]),
-            roof(-0.44, 0.62, 0.935, [P, P, P]),
-            roof(-0.375, 0.625, 0.97, [P, G, P]),
+            roof(-0.415, 0.62, 0.93, [P, P, P]),
+            roof(-0.35, 0.625, 0.965, [P, G, P]),
             roof(-0.115, 0.62, 1.0, [P, T, P]),
             roof(-0.085, 0.62, 1.0, [P, G, P]),
             roof(0.06, 0.61, 0.965, [P, G, G])

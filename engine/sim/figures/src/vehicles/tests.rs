@@ -188,6 +188,27 @@ fn cars_of_all_sizes_have_several_shapes() {
 }
 
 #[test]
+fn cars_have_the_bodies_of_real_traffic() {
+    let sizes_m = BodyKind::Car.row().driving.as_ref().expect("it drives").sizes_m;
+    let mut counts = [0; CARS.len()];
+    for number in 0..4000 {
+        let mut random = Seed([4; 32]).child("size", number).stream("size");
+        let size_m = DVec3::from_array(sizes_m.map(|[low, high]| random.uniform(low, high)));
+        let drawn = cars::shape(BodyKind::Car, size_m, &mut Seed([5; 32]).child("car", number).stream("shape"));
+        counts[CARS.iter().position(|shape| shape.axles == drawn.axles).expect("a shape of the list")] += 1;
+    }
+    let [hatchback, saloon, _, off_road, ..] = counts;
+    assert!([hatchback, saloon, off_road].iter().all(|count| (880..1120).contains(count)), "{counts:?}");
+    // Panes at the tail lean: seen from behind and above, they are dark between roof and boot.
+    for (number, shape) in CARS.iter().enumerate() {
+        let pane = shape.sections.windows(2).find(|pair| pair[0].regions[2] == Region::Glass).expect("a rear pane");
+        let (deep_m, high_m) = (4.4 * (pane[1].x - pane[0].x), 1.5 * (pane[1].top - pane[0].top));
+        let is_upright = deep_m < high_m / 2.0;
+        assert_eq!(is_upright, [5, 6].contains(&number), "{number}: {deep_m} {high_m}");
+    }
+}
+
+#[test]
 fn lamps_bumpers_and_signs_are_on_the_sheet() {
     let mut signed = 0;
     for (kind, size_m, _) in KINDS {

@@ -20,6 +20,8 @@ const PLASTIC: Vec3 = Vec3::new(0.014, 0.014, 0.014);
 const BADGE: Vec3 = Vec3::new(0.30, 0.31, 0.32);
 /// Tape along the boxes of lorries.
 const TAPE: Vec3 = Vec3::new(0.40, 0.02, 0.02);
+/// Share of light that sides lose to the road and to what stands around: under clouds, roofs of real cars are twice as light.
+const SIDES: f32 = 0.40;
 /// Light that comes into a cabin and out of it again.
 const BEHIND_GLASS: f32 = 0.30;
 
@@ -263,7 +265,7 @@ fn sheet(shared: &[Shared], blocks: &mut [Block], look: &Coach, noise: &NoiseTex
                 let specks = noise.clumps(own.x * 40.0, (own.z + own.y) * 40.0, footprint_m[k] * 40.0);
                 let dust = look.dirt * (0.75 * low2 + 0.10) * (0.4 + 1.2 * specks);
                 let aside = 1.0 - upward;
-                let shade = (1.0 - 0.8 * gap) * (1.0 - aside * (0.16 + 0.50 * low2)) * flakes[k];
+                let shade = (1.0 - 0.8 * gap) * (1.0 - aside * (SIDES + 0.60 * low2)) * flakes[k];
                 let lamp = look.tail_lamp(own, footprint_m[k]);
                 let [plastic, badge] = look.fascia(own, footprint_m[k]);
                 let paint = look.colour.lerp(DUST, share(dust)) * shade;
