@@ -122,6 +122,9 @@ def tables_of(name, crops, rng):
     kinds = sorted({crop.kind for crop in filmed}, key=list(RIGHT).index)
     for kind in kinds if len(kinds) > 1 else []:
         rows[f"{name}: {kind}, all sizes"] = row_of([crop for crop in filmed if crop.kind == kind], rng)
+    for kind in kinds:
+        large = [crop for crop in filmed if crop.kind == kind != "pedestrian" and crop.height_px >= 60]
+        rows |= {f"{name}: {kind}, 60 px and more": row_of(large, rng)} if large else {}
     for group in filmed[0].groups:
         for value in sorted({crop.groups[group] for crop in filmed}):
             rows[f"{name}: {group} {value}"] = row_of([crop for crop in filmed if crop.groups[group] == value], rng)
