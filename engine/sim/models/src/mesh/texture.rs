@@ -98,7 +98,7 @@ impl MeshTexture {
         let short = SHARPNESS * short;
         let probes = (long / short.max(1.0)).ceil().clamp(1.0, MOST_PROBES);
         let texels = short.max(SHARPNESS * long / probes);
-        if !(probes >= 2.0) {
+        if probes < 2.0 || probes.is_nan() {
             return self.sample_square(place, texels);
         }
         let (x, y) = if xx > yy { (mean + apart - yy, xy) } else { (xy, mean + apart - xx) };
