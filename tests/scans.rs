@@ -185,6 +185,15 @@ fn tiles_become_one_mesh_and_nothing_beyond_their_folder_is_opened() {
         let all = [&["map", "tiles", "tiles/tileset.json", "--out", "scan.glb"], more].concat();
         cosfly(&all).within(street.path()).run()
     };
+    // A pixel 5,760 m away is as large as the error of the coarse tile.
+    let plain = std::fs::read_to_string(folder.join("tileset.json")).expect("text");
+    let coarse = plain.replace(r#""refine""#, r#""content":{"uri":"0.glb"},"refine""#);
+    std::fs::write(folder.join("tileset.json"), coarse).expect("writable");
+    for (near, words) in [("--near-m=5700", "true to 0 m"), ("--near-m=5800", "true to 9 m")] {
+        let printed = join(&[near]);
+        assert!(printed.stdout.contains(words), "{near}: {}{}", printed.stdout, printed.stderr);
+    }
+    tileset(&street, &["0.glb"]);
     let printed = join(&[]);
     assert!(printed.code == Some(0) && printed.stdout.contains("1 tile of 1 tileset,"), "{}", printed.stderr);
     let printed = cosfly(&["run", "recipe.toml"]).within(street.path()).run_ok();
@@ -211,6 +220,7 @@ fn tiles_become_one_mesh_and_nothing_beyond_their_folder_is_opened() {
     }
     for (more, words) in [
         ("--error-m=-1", "0 to 1000"),
+        ("--near-m=-1", "`--near-m` is `-1`"),
         ("--area-m=1,1,0,2", "west"),
         ("--area-m=1,2", "four"),
         ("--origin=91,0,0", "latitude"),

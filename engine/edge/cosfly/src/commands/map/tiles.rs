@@ -19,6 +19,7 @@ Examples:
   cosfly map tiles city/tileset.json --out city.glb                              the finest level of all tiles
   cosfly map tiles city/tileset.json --out square.glb --area-m=-150,-150,150,150 tiles within 150 m of the middle
   cosfly map tiles city/tileset.json --out city.glb --error-m 0.5                a level true to half a metre
+  cosfly map tiles city/tileset.json --out city.glb --near-m 15                  true to a pixel from 15 m away
   cosfly map tiles city/tileset.json --out city.glb --origin 48.2082,16.3738,171 counted from a place on the Earth
 
 Opens files of the folder alone; nothing is fetched. The page \"3D Tiles as a scan\" of the book goes on from there."
@@ -33,6 +34,9 @@ pub struct Arguments {
     /// Largest geometric error of a tile that is not refined, metres, 0 to 1000: a pixel N m away covers N / focal length in pixels
     #[arg(long, value_name = "M", default_value_t = 0.0)]
     error_m: f64,
+    /// Nearest place of the camera, metres, in the place of `--error-m`: the level true to a pixel of 1280 x 720 and 90 degrees there
+    #[arg(long, value_name = "M", conflicts_with = "error_m")]
+    near_m: Option<f64>,
     /// Area that tiles must meet: metres to the west, south, east and north of the origin, negative to the west and south
     #[arg(long, value_name = "W,S,E,N", value_delimiter = ',', allow_negative_numbers = true)]
     area_m: Option<Vec<f64>>,
@@ -44,6 +48,8 @@ pub struct Arguments {
 /// Farthest side of an area from the origin, and highest origin, metres.
 const FARTHEST_M: f64 = 1e5;
 const HIGHEST_M: f64 = 1e4;
+/// Focal length of a camera of 1280 pixels and 90 degrees, pixels.
+const FOCAL_PX: f64 = 640.0;
 /// Longest file of a tile.
 const MOST_BYTES: u64 = 4 << 30;
 
@@ -87,11 +93,13 @@ impl Arguments {
             let message = format!("`--out {}` does not end in `.glb`", self.out.display());
             return Err(refused(message, "the tiles become one GLB file"));
         }
-        if !(0.0..=1000.0).contains(&self.error_m) {
-            return Err(refused(
-                format!("`--error-m` is `{}`", self.error_m),
-                "0 to 1000 metres; 0 is the finest level",
-            ));
+        let geometric_error_m = self.near_m.map_or(self.error_m, |near_m| near_m / FOCAL_PX);
+        if !(0.0..=1000.0).contains(&geometric_error_m) {
+            let message = match self.near_m {
+                Some(near_m) => format!("`--near-m` is `{near_m}`"),
+                None => format!("`--error-m` is `{}`", self.error_m),
+            };
+            return Err(refused(message, "0 to 1000 metres of error; 0 is the finest level"));
         }
         let area_m = self.area_m.as_deref().map(<[f64; 4]>::try_from).transpose().ok().filter(|area| {
             area.is_none_or(|[west, south, east, north]| {
@@ -111,7 +119,7 @@ impl Arguments {
             let hint = "three numbers: latitude -90 to 90, longitude -180 to 180 degrees, height -10,000 to 10,000 m";
             return Err(refused(format!("`--origin` is `{:?}`", self.origin.as_deref().unwrap_or_default()), hint));
         };
-        Ok(TilesChoice { geometric_error_m: self.error_m, area_m, origin })
+        Ok(TilesChoice { geometric_error_m, area_m, origin })
     }
 
     fn told(&self, joined: &JoinedTiles) -> String {
