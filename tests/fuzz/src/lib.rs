@@ -211,7 +211,7 @@ fn meshes(bytes: &[u8]) {
         Err(error) => return assert!(!error.hints.is_empty(), "{error}"),
     };
     for triangle in mesh.triangles.iter().take(100) {
-        let look = mesh.look_at(triangle, [0.2, 0.3, 0.5], 3.0);
+        let look = mesh.look_at(triangle, [0.2, 0.3, 0.5], [[0.01, 0.0], [0.002, 0.3]]);
         assert!(look.iter().all(|share| (0.0..=1.001).contains(share)), "{look:?}");
     }
 }
