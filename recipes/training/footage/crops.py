@@ -11,8 +11,8 @@ from torch import Tensor
 from torch.nn import functional
 
 KEPT, SIDE = 320, 160  # sides of the squares in memory and of the networks' input, pixels
-HEIGHT = 40.0  # longer side of the body in the middle of a square in memory, pixels
-LEAST_PX, LEAST_PIXELS, LEAST_SHOWN = 14.0, 40, 0.3  # who shows less is neither looked for nor an error
+HEIGHT = 40.0  # longer side of the body in the middle of a square in memory, pixels; smaller bodies stay as small as they are
+LEAST_PX, LEAST_PIXELS, LEAST_SHOWN = 8.0, 16, 0.3  # who shows less is neither looked for nor an error
 VEHICLES = {"bicycle", "motorcycle", "car", "van", "truck", "bus", "drone"}  # all other kinds of bodies are people
 Box = Tuple[float, float, float, float]  # left, top, right, bottom edges, pixels
 
@@ -28,6 +28,7 @@ class Squares(NamedTuple):
     pictures: Tensor  # (squares, 3, KEPT, KEPT), uint8
     around: List[List[Seen]]  # who is in each square, in its pixels
     bodies: List[Tuple[str, str]]  # flight and body in the middle; "" where the square is anywhere
+    lengths: np.ndarray  # longer side of the body in the middle, pixels
 
 
 def cut(picture: Image.Image, middle: Tuple[float, float], side: float, pixels: int) -> Tuple[np.ndarray, Tuple[float, float, float]]:
@@ -63,6 +64,7 @@ def squares_of(dataset: Any, per_frame: int, seed: int) -> Squares:
     pictures = torch.empty((len(dataset) * (per_frame + 1), 3, KEPT, KEPT), dtype=torch.uint8)
     around: List[List[Seen]] = []
     bodies: List[Tuple[str, str]] = []
+    lengths: List[float] = []
     for number in range(len(dataset)):
         sample = dataset[number]
         place = (sample["trajectory_id"], int(sample["frame"]))
@@ -70,12 +72,13 @@ def squares_of(dataset: Any, per_frame: int, seed: int) -> Squares:
         others = [it for it in clear if it.body != "target"]
         chosen = [it for it in clear if it.body == "target"] + [others[it] for it in draws.permutation(len(others))]
         picture = Image.fromarray(sample["rgb"])
-        anywhere = tuple(draws.uniform(0, length) for length in picture.size)
+        anywhere = tuple(draws.uniform(KEPT / 2, max(KEPT / 2, length - KEPT / 2)) for length in picture.size)
         for it in [*chosen[:per_frame], None]:
             middle, body = anywhere, ""
             if it:
                 left, top, right, bottom = it.box
-                side, middle, body = max(right - left, bottom - top) * KEPT / HEIGHT, ((left + right) / 2, (top + bottom) / 2), it.body
+                length, middle, body = max(right - left, bottom - top), ((left + right) / 2, (top + bottom) / 2), it.body
+                side = max(KEPT, length * KEPT / HEIGHT)
             elif not chosen:
                 break
             square, (x, y, scale) = cut(picture, middle, side, KEPT)
@@ -83,13 +86,14 @@ def squares_of(dataset: Any, per_frame: int, seed: int) -> Squares:
             pictures[len(bodies)] = torch.from_numpy(np.array(square)).permute(2, 0, 1)
             around.append([other for other in moved if other.box[2] > 0 and other.box[3] > 0 and other.box[0] < KEPT and other.box[1] < KEPT])
             bodies.append((place[0], body))
+            lengths.append(length * KEPT / side)
     if not bodies:
         raise SystemExit("footage: the dataset shows nobody clearly")
-    return Squares(pictures[: len(bodies)], around, bodies)
+    return Squares(pictures[: len(bodies)], around, bodies, np.array(lengths))
 
 
 def in_reach(box: Box) -> bool:
-    return 20 <= max(box[2] - box[0], box[3] - box[1]) <= 120
+    return LEAST_PX <= max(box[2] - box[0], box[3] - box[1]) <= 120
 
 
 class View(NamedTuple):
@@ -105,7 +109,7 @@ def views(pictures: Tensor, side: int, scales: np.ndarray, moves: np.ndarray, tu
     flip = np.where(mirrors, -1.0, 1.0)
     linear = np.stack([np.stack([cos * flip, -sin], 1), np.stack([sin * flip, cos], 1)], 1)  # (views, 2, 2), about the middle
     shift = moves * side / 2
-    inverse = np.linalg.inv(linear)
+    inverse = linear.transpose(0, 2, 1) / (scales**2)[:, None, None]
     theta = np.concatenate([inverse * side / KEPT, (-(inverse @ shift[:, :, None])) / (KEPT / 2)], axis=2)
     grid = functional.affine_grid(torch.from_numpy(theta).float(), [len(pictures), 3, side, side], align_corners=False)
     seen = functional.grid_sample(pictures.float(), grid, mode="bilinear", padding_mode="border", align_corners=False)
@@ -119,6 +123,18 @@ def moved(box: Box, of: np.ndarray) -> np.ndarray:
     x, y = (left + right) / 2, (top + bottom) / 2
     ends = np.array([[left, y, 1], [right, y, 1], [x, top, 1], [x, bottom, 1]]) @ of.T
     return np.concatenate([ends.min(axis=0), ends.max(axis=0)])
+
+
+def coarse(pictures: Tensor, pooled: np.ndarray, smear: np.ndarray, draws: np.random.Generator) -> Tensor:
+    """Smaller and farther, or a moving camera: every `pooled` pixels become one, and a fifth of the pictures is blurred along `smear`."""
+    side = pictures.shape[-1]
+    for few in np.unique(pooled[pooled > 1]):
+        rows = torch.from_numpy(pooled == few)
+        pictures[rows] = functional.interpolate(functional.avg_pool2d(pictures[rows], int(few)), size=side, mode="bilinear", align_corners=False)
+    rows = torch.from_numpy(draws.random(len(pictures)) < 0.2)
+    moving = pictures[rows]
+    pictures[rows] = torch.stack([moving.roll((int(it * smear[0]), int(it * smear[1])), (2, 3)) for it in range(-2, 3)]).mean(dim=0)
+    return pictures
 
 
 def coloured(pictures: Tensor, draws: np.random.Generator) -> Tensor:

@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 import math
-from typing import Callable, Dict, List, Tuple
+from typing import Callable, Dict, List, Optional, Tuple
 
 import numpy as np
 import torch
 from boxes import overlaps
-from crops import HEIGHT, KEPT, SIDE, Squares, coloured, moved, views
+from crops import KEPT, SIDE, Squares, View, coarse, coloured, moved, views
+from objects import drawn_objects, pasted
 from torch import Tensor, nn
 from torch.nn import functional
 
 CELL, TEMPLATE, KERNEL = 4, 64, 10
-BATCH, RATE = 24, 2e-3
+BATCH, RATE = 16, 2e-3
+LEAST_LONG, MOST_LONG = 10, 56  # longer sides of bodies in training, pixels
 OUTPUTS = 5  # certainty, and the distances from the cell's middle to the left, top, right, bottom edge: logarithms of cells
 
 
-def block(before: int, after: int, stride: int = 1) -> nn.Sequential:
-    return nn.Sequential(nn.Conv2d(before, after, 3, stride, 1, bias=False), nn.GroupNorm(8, after), nn.ReLU())
+def block(before: int, after: int, stride: int = 1, size: int = 3) -> nn.Sequential:
+    return nn.Sequential(nn.Conv2d(before, after, size, stride, size // 2, bias=False), nn.GroupNorm(8, after), nn.ReLU())
 
 
 class Trunk(nn.Module):
@@ -29,10 +31,12 @@ class Trunk(nn.Module):
         self.stem = nn.Sequential(block(3, 24, 2), block(24, 32, 2), block(32, 32))
         self.middle = nn.Sequential(block(32, 64, 2), block(64, 64))
         self.deep = nn.Sequential(block(64, 96, 2), block(96, 96), block(96, 96))
-        self.to_middle, self.to_cells = block(96 + 64, 64), block(64 + 32, 48)
+        self.to_middle, self.to_cells = block(96 + 64, 64), block(64 + 32, 48, size=1)
 
     def forward(self, pictures: Tensor) -> Tensor:
-        cells = self.stem(pictures)
+        return self.from_stem(self.stem(pictures))
+
+    def from_stem(self, cells: Tensor) -> Tensor:
         middle = self.middle(cells)
         larger = functional.interpolate(self.deep(middle), size=middle.shape[-2:], mode="nearest")
         middle = self.to_middle(torch.cat([larger, middle], dim=1))
@@ -62,20 +66,19 @@ class Tracker(nn.Module):
 
     def __init__(self) -> None:
         super().__init__()
-        self.trunk, self.alike, self.head = Trunk(), nn.GroupNorm(8, 48), head(96)
+        self.trunk, self.alike, self.both, self.head = Trunk(), nn.GroupNorm(8, 48), block(96, 32, size=1), head(32)
 
     def kernels(self, templates: Tensor) -> Tensor:
         """(targets, 3, TEMPLATE, TEMPLATE) -> (targets, 48, KERNEL, KERNEL)."""
         cells, margin = self.trunk(templates), (TEMPLATE // CELL - KERNEL) // 2
         return cells[:, :, margin : margin + KERNEL, margin : margin + KERNEL]
 
-    def forward(self, kernels: Tensor, pictures: Tensor) -> Tensor:
-        cells = self.trunk(pictures)
+    def compared(self, kernels: Tensor, cells: Tensor) -> Tensor:
         count, channels, height, width = cells.shape
         before, after = KERNEL // 2, KERNEL // 2 - 1
         padded = functional.pad(cells, (before, after, before, after)).reshape(1, count * channels, height + KERNEL - 1, width + KERNEL - 1)
         alike = functional.conv2d(padded, kernels.reshape(count * channels, 1, KERNEL, KERNEL), groups=count * channels).reshape(cells.shape)
-        return self.head(torch.cat([self.alike(alike), cells], dim=1))
+        return self.head(self.both(torch.cat([self.alike(alike), cells], dim=1)))
 
 
 def peaks(found: Tensor, least: float) -> np.ndarray:
@@ -142,70 +145,102 @@ class Wanted:
         return (right.sum() + wrong.sum()) / is_middle.sum().clamp(min=1) + of_edges
 
 
-def seen_anew(squares: Squares, rows: np.ndarray, draws: np.random.Generator, move: float) -> Tuple[Tensor, np.ndarray]:
-    """Pictures of the networks' size, in which bodies in the middle of squares are 18 to 48 pixels long, and the maps to them."""
-    count = len(rows)
-    scales = np.exp(draws.uniform(np.log(0.45), np.log(1.2), count))
-    room = np.clip(KEPT * scales / SIDE - 1, 0.2, move)[:, None]  # views lie within the square
-    moves, turns = draws.uniform(-1, 1, (count, 2)) * room, draws.uniform(-0.12, 0.12, count)
-    seen = views(squares.pictures[torch.from_numpy(rows)], SIDE, scales, moves, turns, draws.random(count) < 0.5)
-    return coloured(seen.pictures, draws), seen.map
+class Lesson:
+    """Pictures for both networks at once: people to find, and a target to follow from a picture of it, taken from another frame.
 
-
-def lesson_of_detector(network: Detector, squares: Squares, draws: np.random.Generator) -> Tensor:
-    rows = draws.integers(len(squares.bodies), size=BATCH)
-    pictures, maps = seen_anew(squares, rows, draws, 1.0)
-    wanted = Wanted(BATCH)
-    for row, square in enumerate(rows):
-        for it in sorted(squares.around[square], key=lambda it: it.is_clear):
-            if it.is_person:
-                box = moved(it.box, maps[row])
-                wanted.add(row, box, it.is_clear and box[3] - box[1] >= 10)
-    return wanted.loss(network(pictures))
-
-
-class LessonOfTracker:
-    """Pairs of squares around one body; in one of five, the body looked for is another one, which is not there."""
+    The target is a body, or an object of no kind that is pasted in; in one of eight, a stranger who is not there.
+    """
 
     def __init__(self, squares: Squares) -> None:
+        self.squares = squares
         self.of_body: Dict[Tuple[str, str], List[int]] = {}
         for row, body in enumerate(squares.bodies):
             if body[1]:
                 self.of_body.setdefault(body, []).append(row)
         self.rows = np.concatenate(list(self.of_body.values()))
 
-    def __call__(self, network: Tracker, squares: Squares, draws: np.random.Generator) -> Tensor:
-        rows = draws.choice(self.rows, BATCH)
-        partners = np.array([draws.choice(self.of_body[squares.bodies[row]]) for row in rows])
-        strangers = draws.random(BATCH) < 0.2
-        partners[strangers] = draws.choice(self.rows, strangers.sum())
-        pictures, maps = seen_anew(squares, rows, draws, 0.7)
-        scale = 32 / HEIGHT * np.exp(draws.uniform(-0.08, 0.08, BATCH))
-        still = np.zeros(BATCH)
-        templates = views(squares.pictures[torch.from_numpy(partners)], TEMPLATE, scale, draws.uniform(-0.06, 0.06, (BATCH, 2)), still, still > 0)
-        wanted = Wanted(BATCH)
+    def seen_anew(self, rows: np.ndarray, side: int, lengths: np.ndarray, moves: np.ndarray, turns: np.ndarray, mirrors: np.ndarray) -> View:
+        """Views in which the bodies in the middle of squares are as long as asked, where the squares' pixels allow it."""
+        scales = np.clip(lengths / self.squares.lengths[rows], 0.5, 4.0)
+        room = np.clip(KEPT * scales / side - 1, 0.2, 1.0)[:, None]  # views lie within the square
+        return views(self.squares.pictures[torch.from_numpy(rows)], side, scales, moves * room, turns, mirrors)
+
+    def with_objects(
+        self, where: np.ndarray, pictures: Tensor, templates: Tensor, lengths: np.ndarray, draws: np.random.Generator
+    ) -> Tuple[List[Optional[np.ndarray]], np.ndarray]:
+        """Pastes an object and another one into pictures, and the first into the templates beside them; its boxes, and what the two hide."""
+        rows = np.flatnonzero(where)
+        count, chosen, lengths = len(rows), torch.from_numpy(rows), lengths[rows]
+        boxes: List[Optional[np.ndarray]] = [None] * len(where)
+        hides = np.zeros((len(where), SIDE, SIDE), np.float32)
+        if count < 2:
+            return boxes, hides
+        number = lambda low, high, *shape: draws.uniform(low, high, (count, *shape))
+        objects, turns, stretches = drawn_objects(self.squares, count, draws), number(-np.pi, np.pi), number(0.8, 1.2)
+        other = pasted(pictures[chosen], objects.roll(1, 0), lengths * np.exp(number(-0.3, 0.3)), number(-1, 1, 2), turns, stretches)
+        found = pasted(other.pictures, objects, lengths, number(-0.75, 0.75, 2), turns + number(-0.3, 0.3), stretches * number(0.85, 1.15))
+        shown = pasted(templates[chosen], objects, 32 * np.exp(number(-0.1, 0.1)), number(-0.06, 0.06, 2), turns, stretches)
+        pictures[chosen], templates[chosen] = found.pictures, shown.pictures
+        hides[rows] = torch.maximum(other.hides, found.hides).numpy()
+        for row, box in zip(rows, found.boxes):
+            boxes[row] = box
+        return boxes, hides
+
+    def __call__(self, detector: Detector, tracker: Tracker, draws: np.random.Generator) -> Tensor:
+        squares, count = self.squares, BATCH
+        number = lambda low, high, *shape: draws.uniform(low, high, (count, *shape))
+        rows = draws.integers(len(squares.bodies), size=count)
+        is_object = np.array([not squares.bodies[row][1] for row in rows]) | (draws.random(count) < 0.25)
+        is_stranger = draws.random(count) < 0.12
+        partners = np.array([draws.choice(self.of_body.get(squares.bodies[row], self.rows)) for row in rows])
+        partners[is_stranger] = draws.choice(self.rows, is_stranger.sum())
+        lengths = np.exp(number(np.log(LEAST_LONG), np.log(MOST_LONG)))
+        seen = self.seen_anew(rows, SIDE, lengths, number(-0.85, 0.85, 2), number(-0.12, 0.12), draws.random(count) < 0.5)
+        still = np.zeros(count)
+        beside = self.seen_anew(np.where(is_object, rows, partners), TEMPLATE, 32 * np.exp(number(-0.1, 0.1)), number(-0.06, 0.06, 2), still, still > 0)
+        pooled, smear = draws.choice([1, 1, 1, 2, 3], count), draws.integers(-1, 2, 2)
+        camera, lighter = int(draws.integers(2**32)), torch.from_numpy(np.exp(number(-0.2, 0.2, 1, 1, 1) + number(-0.05, 0.05, 3, 1, 1))).float()
+        found, hides = self.with_objects(is_object, seen.pictures, beside.pictures, lengths, draws)
+        pictures = coloured(coarse(seen.pictures, pooled, smear, draws), np.random.default_rng(camera))
+        templates = coloured(coarse(beside.pictures * lighter, pooled, smear, draws), np.random.default_rng(camera))
+        people, target = Wanted(count), Wanted(count)
         for row, (square, partner) in enumerate(zip(rows, partners)):
-            for it in squares.around[square]:
-                if (squares.bodies[square][0], it.body) == squares.bodies[partner]:
-                    wanted.add(row, moved(it.box, maps[row]), it.is_clear)
-        return wanted.loss(network(network.kernels(coloured(templates.pictures, draws)), pictures))
+            for it in sorted(squares.around[square], key=lambda it: it.is_clear):
+                box = moved(it.box, seen.map[row])
+                left, top, right, bottom = np.clip(box, 0, SIDE).astype(int)
+                is_hidden = right > left and bottom > top and hides[row, top:bottom, left:right].mean() > 0.25
+                if it.is_person:
+                    people.add(row, box, it.is_clear and not is_hidden and box[3] - box[1] >= LEAST_LONG * 0.7)
+                if not is_object[row] and (squares.bodies[square][0], it.body) == squares.bodies[partner]:
+                    target.add(row, box, it.is_clear)
+            if not is_stranger[row] and found[row] is not None:
+                target.add(row, found[row], True)
+        unlike = torch.from_numpy(is_stranger & is_object)
+        templates[unlike] = templates.roll(2, 0)[unlike]
+        cells = detector.trunk(pictures)
+        return people.loss(detector.head(cells)) + target.loss(tracker.compared(tracker.kernels(templates), cells))
 
 
-def train(network: nn.Module, lesson: Callable[..., Tensor], squares: Squares, steps: int, seed: int, say: Callable[[str], None]) -> None:
-    """Adam with decay; the rate rises for a twentieth of the steps and falls along half a cosine."""
-    draws = np.random.default_rng(seed)
-    optimiser = torch.optim.AdamW(network.parameters(), RATE, weight_decay=1e-2)
+def on_one_trunk(detector: Detector, tracker: Tracker) -> nn.ModuleList:
+    tracker.trunk = detector.trunk
+    return nn.ModuleList([detector, tracker])
+
+
+def train(detector: Detector, tracker: Tracker, squares: Squares, steps: int, seed: int, say: Callable[[str], None]) -> None:
+    """Both networks on one trunk. Adam with decay; the rate rises for a twentieth of the steps and falls along half a cosine."""
+    both, lesson, draws = on_one_trunk(detector, tracker), Lesson(squares), np.random.default_rng(seed)
+    optimiser = torch.optim.AdamW(both.parameters(), RATE, weight_decay=1e-2)
     rise = max(1, steps // 20)
     schedule = torch.optim.lr_scheduler.LambdaLR(optimiser, lambda step: min((step + 1) / rise, 0.5 * (1 + math.cos(math.pi * step / steps))))
     mean = 0.0
     for step in range(steps):
-        loss = lesson(network, squares, draws)
+        loss = lesson(detector, tracker, draws)
         optimiser.zero_grad()
         loss.backward()
-        nn.utils.clip_grad_norm_(network.parameters(), 5.0)
+        nn.utils.clip_grad_norm_(both.parameters(), 5.0)
         optimiser.step()
         schedule.step()
         mean += (float(loss.detach()) - mean) / min(step + 1, 100)
         if (step + 1) % 100 == 0:
             say(f"step {step + 1} of {steps}: loss {mean:.3f}")
-    network.eval()
+    both.eval()

@@ -47,7 +47,7 @@ def arguments() -> argparse.Namespace:
     add("--others", **sequence, help="the same for a sequence that follows anything else: for the tracker alone")
     add("--without", choices=sorted(PARTS), help="leave a part of the recipe out, to see what it is good for")
     add("--set", action="append", default=[], metavar="KEY=VALUE", help="change the recipe, as in `cosfly run`")
-    add("--steps", type=counted, default=2000, help="steps of the detector, twice those of the tracker, which begins with its weights (default: 2000)")
+    add("--steps", type=counted, default=6000, help="steps of training, of both networks at once (default: 6000, half an hour of one core)")
     add("--per-frame", type=counted, default=3, help="bodies around which squares are cut from each picture (default: 3)")
     add("--every", type=counted, default=4, help="score the detector on every n-th picture of a sequence (default: 4)")
     add("--seed", type=int, default=1)
@@ -81,25 +81,21 @@ def networks_of(options: argparse.Namespace, out: Path, dataset: Path) -> Dict[s
     pictures = hashlib.sha256((dataset / "SHA256SUMS").read_bytes()).hexdigest()
     asked = {name: getattr(options, name) for name in ("steps", "per_frame", "seed", "threads")}
     made = json.dumps({**asked, "pictures": pictures})
-    kinds, squares, found = {"detector": networks.Detector, "tracker": networks.Tracker}, None, {}
-    for name, kind in kinds.items():
-        file = out / f"{name}.pt"
-        torch.manual_seed(options.seed)
-        network = kind()
-        kept = torch.load(file) if file.exists() else {}
-        if kept.get("made") == made:
-            network.load_state_dict(kept["weights"])
+    found = {"detector": networks.Detector(), "tracker": networks.Tracker()}
+    kept = {name: torch.load(out / f"{name}.pt") for name in found if (out / f"{name}.pt").exists()}
+    if [kept.get(name, {}).get("made") for name in found] == [made] * len(found):
+        for name, network in found.items():
+            network.load_state_dict(kept[name]["weights"])
             network.eval()
-        else:
-            squares = squares or squares_of(cosfly.Dataset(dataset, split="train", channels=("rgb",)), options.per_frame, options.seed)
-            if name == "tracker":
-                network.trunk.load_state_dict(found["detector"].trunk.state_dict())
-            print(f"{name}: {sum(it.numel() for it in network.parameters()):,} weights, {len(squares.bodies):,} squares", flush=True)
-            lesson = networks.lesson_of_detector if name == "detector" else networks.LessonOfTracker(squares)
-            steps = options.steps if name == "detector" else max(1, options.steps // 2)
-            networks.train(network, lesson, squares, steps, options.seed, lambda line: print(f"{name}: {line}", flush=True))
-            torch.save({"made": made, "weights": network.state_dict()}, file)
-        found[name] = network
+        return found
+    squares = squares_of(cosfly.Dataset(dataset, split="train", channels=("rgb",)), options.per_frame, options.seed)
+    torch.manual_seed(options.seed)
+    detector, tracker = found["detector"], found["tracker"] = networks.Detector(), networks.Tracker()
+    weights = sum(it.numel() for it in networks.on_one_trunk(detector, tracker).parameters())
+    print(f"{weights:,} weights, {len(squares.bodies):,} squares", flush=True)
+    networks.train(detector, tracker, squares, options.steps, options.seed, lambda line: print(line, flush=True))
+    for name, network in found.items():
+        torch.save({"made": made, "weights": network.state_dict()}, out / f"{name}.pt")
     return found
 
 
