@@ -72,6 +72,21 @@ fn pixels_of_cars_have_their_id_label_and_depth() {
 }
 
 #[test]
+fn doors_are_darker_than_the_shoulder_above_them() {
+    let (town, shape) = town_with(DVec3::new(4.4, 1.8, 1.44), 0.0);
+    let door = shape.center_in_world + DVec3::X * 0.2;
+    let pose = Pose::looking_at(door - DVec3::Y * 8.0, door);
+    let ratio = |seed: u8| {
+        let images = draw(&Scene::new(&town, Seed([seed; 32])), PictureLook::Full, pose);
+        // 33 pixels a metre on the side, from its middle in row 90.
+        let light = |z_m: f64| f64::from(images.rgb[3 * (320 * (90.0 - 33.0 * (z_m - 0.74)) as usize + 160) + 1]);
+        (75..88).map(|z_cm| light(f64::from(z_cm) / 100.0)).fold(0.0, f64::max) / light(0.42)
+    };
+    let ratios: Vec<f64> = (0..6).map(ratio).collect();
+    assert!(ratios.iter().filter(|ratio| **ratio > 1.4).count() > 3, "{ratios:?}");
+}
+
+#[test]
 fn boxes_that_no_vehicle_fits_stay_boxes() {
     let (town, _) = town_with(DVec3::new(3.0, 3.0, 3.0), 0.4);
     let scene = Scene::new(&town, Seed([1; 32]));

@@ -20,8 +20,10 @@ const PLASTIC: Vec3 = Vec3::new(0.014, 0.014, 0.014);
 const BADGE: Vec3 = Vec3::new(0.30, 0.31, 0.32);
 /// Tape along the boxes of lorries.
 const TAPE: Vec3 = Vec3::new(0.40, 0.02, 0.02);
-/// Share of light that sides lose to the road and to what stands around: under clouds, roofs of real cars are twice as light.
-const SIDES: f32 = 0.40;
+/// Shares of light that sides lose to the road and to what stands around: 1 m above the ground, and how much more at the ground. Under
+/// clouds, doors of a real car have a half to an eighth of the light of its roof, and the shoulder below the windows has as much.
+const SIDES: f32 = 0.30;
+const LOW: f32 = 0.70;
 /// Light that comes into a cabin and out of it again.
 const BEHIND_GLASS: f32 = 0.30;
 
@@ -260,12 +262,13 @@ fn sheet(shared: &[Shared], blocks: &mut [Block], look: &Coach, noise: &NoiseTex
                 let upward = share((point.normal.z - 0.35) * 3.0);
                 let gap = look.gaps(own, upward, footprint_m[k]);
                 // The road takes light from what is low, and gives dust to it.
-                let low = share(1.0 - own.z * 1.25);
-                let low2 = low * low;
+                let (low, near) = (share(1.0 - own.z), share(1.0 - own.z * 1.25));
+                let near2 = near * near;
+                let shoulder = share(1.0 - (own.z - look.door_heights[1] + 0.05).abs() * 16.0);
                 let specks = noise.clumps(own.x * 40.0, (own.z + own.y) * 40.0, footprint_m[k] * 40.0);
-                let dust = look.dirt * (0.75 * low2 + 0.10) * (0.4 + 1.2 * specks);
+                let dust = look.dirt * (0.75 * near2 + 0.10) * (0.4 + 1.2 * specks);
                 let aside = 1.0 - upward;
-                let shade = (1.0 - 0.8 * gap) * (1.0 - aside * (SIDES + 0.60 * low2)) * flakes[k];
+                let shade = (1.0 - 0.8 * gap) * (1.0 - aside * (SIDES + LOW * low) * (1.0 - shoulder)) * flakes[k];
                 let lamp = look.tail_lamp(own, footprint_m[k]);
                 let [plastic, badge] = look.fascia(own, footprint_m[k]);
                 let paint = look.colour.lerp(DUST, share(dust)) * shade;
