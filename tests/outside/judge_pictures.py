@@ -124,7 +124,8 @@ def tables_of(name, crops, rng):
         rows[f"{name}: {kind}, all sizes"] = row_of([crop for crop in filmed if crop.kind == kind], rng)
     for kind in kinds:
         large = [crop for crop in filmed if crop.kind == kind != "pedestrian" and crop.height_px >= 60]
-        rows |= {f"{name}: {kind}, 60 px and more": row_of(large, rng)} if large else {}
+        for pitch in sorted({"any", *(crop.groups.get("pitch", "any") for crop in large)} if large else []):
+            rows[f"{name}: {kind}, 60 px and more, pitch {pitch}"] = row_of([crop for crop in large if pitch in ("any", crop.groups.get("pitch"))], rng)
     for group in filmed[0].groups:
         for value in sorted({crop.groups[group] for crop in filmed}):
             rows[f"{name}: {group} {value}"] = row_of([crop for crop in filmed if crop.groups[group] == value], rng)
