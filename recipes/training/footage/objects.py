@@ -1,12 +1,12 @@
-"""Objects of no kind: shapes filled with pieces of pictures, pasted into others, so that the tracker learns to follow whatever its first box holds."""
+"""Objects of no kind: shapes filled with pieces of pictures and pasted into others, so that the tracker learns to follow anything."""
 
 from __future__ import annotations
 
-from typing import List, NamedTuple, Optional, Tuple
+from typing import List, NamedTuple, Optional
 
 import numpy as np
 import torch
-from crops import KEPT, Squares, views
+from crops import Squares, views
 from torch import Tensor
 from torch.nn import functional
 

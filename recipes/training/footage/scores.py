@@ -167,7 +167,7 @@ class Filter:
     def answer(self, cells: np.ndarray) -> np.ndarray:
         """How well the target's middle fits each cell, about 1 at best."""
         waves = np.fft.rfft2(cells * self.window)
-        return np.fft.fftshift(np.fft.irfft2((self.above.conj() * waves).sum(axis=0) / (self.below + 1e-3 * self.below.mean()), s=self.window.shape))
+        return np.fft.fftshift(np.fft.irfft2((self.above.conj() * waves).sum(axis=0) / (self.below + 1e-3 * self.below.mean() + 1e-9), s=self.window.shape))
 
 
 class Follower:
