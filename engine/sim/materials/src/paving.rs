@@ -4,7 +4,9 @@
 
 use super::kerbs::Kerbs;
 use super::lanes::{Block, PendingFours, Shared, WIDE, get, groups, set};
-use super::pattern::{NoiseTexture, Noises, band, floor_int, hash, lerp, most, one_if, smoothstep, stripes, unit};
+use super::pattern::{
+    NoiseLevels, NoiseTexture, Noises, band, floor_int, hash, lerp, most, one_if, smoothstep, stripes, unit,
+};
 use super::square::Square;
 use super::vector::Vec3;
 use cosfly_domain::{Town, WalkableKind};
@@ -70,6 +72,8 @@ const KINDS: [Kind; 4] = [
 /// Width of bands, and of drains beside every third one, metres.
 const BAND_M: f32 = 0.5;
 const DRAIN_M: f32 = 0.14;
+/// Width of joints, metres.
+const JOINT_M: f32 = 0.012;
 /// No bands.
 const FAR_M: f32 = 1e4;
 /// Distance of drains where there are no bands across, metres.
@@ -125,52 +129,103 @@ simd_kernel! {
         let [along_x, along_y] = &kerbs.along;
         for (group, (shared, four)) in groups(shared, blocks).enumerate() {
             let [x, y, kinds] = [along_x, along_y, &kerbs.square].map(|row| PendingFours::lane(row, group));
-            if kinds.iter().all(|kind| *kind == 0.0) {
+            let mut highest = 0.0f32;
+            for kind in kinds {
+                highest = most(highest, *kind);
+            }
+            if highest == 0.0 {
                 continue;
             }
-            for block in four {
+            let (fine, mut worn) = (NoiseLevels::of(&shared.footprint_m, 15.0), [0.0f32; WIDE]);
+            for (k, worn) in worn.iter_mut().enumerate() {
+                let middle = get(&shared.middle, k);
+                *worn = noise.clumps(middle.x * 0.7 + 20.0, middle.y * 0.7, shared.footprint_m[k] * 0.7) - 0.5;
+            }
+            // One kind at a time: what is the same of all pixels is looked up once.
+            for (number, kind) in (1u8..).zip(&KINDS) {
+                let mut is_kind = [0.0f32; WIDE];
+                let mut wanted = 0.0f32;
                 for k in 0..WIDE {
-                    let (point, kind) = (block.point(shared, k), &KINDS[(kinds[k] as usize).wrapping_sub(1) % 4]);
-                    let at = [point.world.x, point.world.y];
-                    let place = [at[0] * x[k] + at[1] * y[k], at[1] * x[k] - at[0] * y[k]];
-                    let stones = laid(kind, at, place, shared.footprint_m[k], noise);
-                    let albedo = get(&block.albedo, k);
-                    set(&mut block.albedo, k, albedo.lerp(stones, one_if((kinds[k] > 0.0) & (point.normal.z > 0.6))));
+                    is_kind[k] = one_if(kinds[k] == f32::from(number));
+                    wanted = most(wanted, is_kind[k]);
+                }
+                if wanted == 0.0 {
+                    continue;
+                }
+                let laid = Laid::new(kind);
+                for block in &mut *four {
+                    for k in 0..WIDE {
+                        let point = block.point(shared, k);
+                        let at = [point.world.x, point.world.y];
+                        let place = [at[0] * x[k] + at[1] * y[k], at[1] * x[k] - at[0] * y[k]];
+                        let rough = noise.rough_at(at[0] * 15.0, at[1] * 15.0, fine.at(k)) - 0.5;
+                        let stones = laid.albedo(place, [rough, worn[k]], shared.footprint_m[k]);
+                        let share = is_kind[k] * one_if(point.normal.z > 0.6);
+                        let before = get(&block.albedo, k);
+                        set(&mut block.albedo, k, before.lerp(stones, share));
+                    }
                 }
             }
         }
     }
 }
 
-/// Albedo of a paving at a place of the world, and along and across its rows, where pixels are `size` metres wide.
-#[inline(always)]
-fn laid(kind: &Kind, [x, y]: [f32; 2], [u, v]: [f32; 2], size: f32, noise: &NoiseTexture) -> Vec3 {
-    let [length_m, width_m] = kind.stone_m;
-    let row = floor_int(v / width_m);
-    let along = u / length_m + kind.bond * (row & 1) as f32;
-    let column = floor_int(along);
-    let (size_u, size_v) = (size / length_m, size / width_m);
-    let joint = most(stripes(along, 0.0, 0.012 / length_m, size_u), stripes(v / width_m, 0.0, 0.012 / width_m, size_v));
-    let near = 1.0 - smoothstep(0.3, 1.0, size_v);
-    let own = unit(hash(column as u32, row as u32 ^ 0x2c1b)) - 0.5;
-    let dark = kind.chequer * lerp(0.5, ((column + row) & 1) as f32, near);
-    let rough = noise.rough(x * 15.0, y * 15.0, size * 15.0) - 0.5;
-    let worn = noise.clumps(x * 0.7 + 20.0, y * 0.7, size * 0.7) - 0.5;
-    let light = (1.0 + kind.spread * own * near + 0.35 * rough + 0.35 * worn) * (1.0 - dark);
-    let [across_m, along_m] = kind.bands_m;
-    let bands = most(
-        one_if(across_m < FAR_M) * stripes(u / across_m, 0.0, BAND_M / across_m, size / across_m),
-        one_if(along_m < FAR_M) * stripes(v / along_m, 0.0, BAND_M / along_m, size / along_m),
-    );
-    let drains_m = if across_m < FAR_M { 3.0 * across_m } else { DRAINS_M };
-    let beside = u - drains_m * floor_int(u / drains_m) as f32 - 2.0 * BAND_M;
-    let drain = band(beside, 0.0, DRAIN_M, size);
-    let slot = stripes(v * 16.0, 0.0, 0.45, size * 16.0);
-    let [r, g, b] = kind.colour;
-    let stone = Vec3::new(r, g, b) * (light * (1.0 - 0.45 * joint));
-    let [r, g, b] = kind.band;
-    let stripe = Vec3::new(r, g, b) * (1.0 + 0.4 * rough + 0.3 * worn);
-    stone.lerp(stripe, bands).lerp(Vec3::splat(0.14 - 0.1 * slot), drain)
+/// A kind as pixels are worked out: lengths by their inverse.
+#[derive(Clone, Copy)]
+struct Laid {
+    stone: Vec3,
+    band: Vec3,
+    per_stone: [f32; 2],
+    per_band: [f32; 2],
+    has_bands: [f32; 2],
+    drains_m: f32,
+    bond: f32,
+    spread: f32,
+    chequer: f32,
+}
+
+impl Laid {
+    #[inline(always)]
+    fn new(&Kind { stone_m, bond, colour: [r, g, b], spread, chequer, bands_m, band }: &Kind) -> Self {
+        Self {
+            stone: Vec3::new(r, g, b),
+            band: Vec3::new(band[0], band[1], band[2]),
+            per_stone: [1.0 / stone_m[0], 1.0 / stone_m[1]],
+            per_band: [1.0 / bands_m[0], 1.0 / bands_m[1]],
+            has_bands: [one_if(bands_m[0] < FAR_M), one_if(bands_m[1] < FAR_M)],
+            drains_m: if bands_m[0] < FAR_M { 3.0 * bands_m[0] } else { DRAINS_M },
+            bond,
+            spread,
+            chequer,
+        }
+    }
+
+    /// Albedo at a place along and across the rows, in metres, where pixels are `size` metres wide.
+    #[inline(always)]
+    fn albedo(&self, [u, v]: [f32; 2], [rough, worn]: [f32; 2], size: f32) -> Vec3 {
+        let across = v * self.per_stone[1];
+        let row = floor_int(across);
+        let along = u * self.per_stone[0] + self.bond * (row & 1) as f32;
+        let column = floor_int(along);
+        let [size_u, size_v] = [size * self.per_stone[0], size * self.per_stone[1]];
+        let joints = self.per_stone.map(|per_m| JOINT_M * per_m);
+        let joint = most(stripes(along, 0.0, joints[0], size_u), stripes(across, 0.0, joints[1], size_v));
+        let near = 1.0 - smoothstep(0.3, 1.0, size_v);
+        let own = unit(hash(column as u32, row as u32 ^ 0x2c1b)) - 0.5;
+        let dark = self.chequer * lerp(0.5, ((column.wrapping_add(row)) & 1) as f32, near);
+        let light = (1.0 + self.spread * own * near + 0.35 * rough + 0.35 * worn) * (1.0 - dark);
+        let [across_share, along_share] = self.per_band.map(|per_m| BAND_M * per_m);
+        let bands = most(
+            self.has_bands[0] * stripes(u * self.per_band[0], 0.0, across_share, size * self.per_band[0]),
+            self.has_bands[1] * stripes(v * self.per_band[1], 0.0, along_share, size * self.per_band[1]),
+        );
+        let beside = u - self.drains_m * floor_int(u / self.drains_m) as f32 - 2.0 * BAND_M;
+        let drain = band(beside, 0.0, DRAIN_M, size);
+        let slot = stripes(v * 16.0, 0.0, 0.45, size * 16.0);
+        let stone = self.stone * (light * (1.0 - 0.45 * joint));
+        let stripe = self.band * (1.0 + 0.4 * rough + 0.3 * worn);
+        stone.lerp(stripe, bands).lerp(Vec3::splat(0.14 - 0.1 * slot), drain)
+    }
 }
 
 #[cfg(test)]
@@ -209,7 +264,10 @@ mod tests {
         let noise = noise_texture(3);
         let mean = |kind: &Kind, size: f32| {
             let places = (0..4000).map(|k| [0.37 * (k % 63) as f32, 0.41 * (k / 63) as f32]);
-            let all = places.map(|at| laid(kind, at, at, size, &noise)).fold(Vec3::ZERO, |sum, it| sum + it);
+            let rough = |[x, y]: [f32; 2]| noise.rough(x * 15.0, y * 15.0, size * 15.0) - 0.5;
+            let all = places
+                .map(|at| Laid::new(kind).albedo(at, [rough(at), 0.0], size))
+                .fold(Vec3::ZERO, |sum, it| sum + it);
             all * (1.0 / 4000.0)
         };
         let near = KINDS.each_ref().map(|kind| mean(kind, 0.02));
