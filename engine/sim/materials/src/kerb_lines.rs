@@ -9,6 +9,8 @@ use cosfly_frames::{DVec2, DVec3};
 
 /// Faces that are less level than this are upright.
 const UPRIGHT: f64 = 0.6;
+/// Polygons one after the other over which paving goes on.
+const MOST_ROUNDS: usize = 64;
 /// Higher faces are not of kerbs, metres.
 const HIGHEST_M: f64 = 0.6;
 
@@ -18,10 +20,36 @@ pub fn edges_of_pavements(town: &Town, ground: &GroundPolygons) -> Vec<KerbLine>
     let mut lines = kerb_lines(&ground.points_in_world, &ground.polygons);
     for (line, polygon) in lines.iter_mut().zip(&ground.polygons) {
         if polygon.label == SemanticLabel::SideWalks {
-            line.square = squares.at(polygon.middle_in_world.truncate());
+            let corners = polygon.corners.iter().map(|corner| ground.points_in_world[*corner as usize].truncate());
+            line.square = squares.of_polygon(polygon.middle_in_world.truncate(), corners);
         }
     }
+    pave_on(ground, &mut lines);
     lines
+}
+
+/// Ground without a kerb is laid as the squares that it goes on from, so that no seam shows where its polygons meet.
+fn pave_on(ground: &GroundPolygons, lines: &mut [KerbLine]) {
+    let mut laid = vec![Square::NONE; ground.points_in_world.len()];
+    let is_open = |line: &KerbLine| line.inward == KerbLine::NONE.inward;
+    for _ in 0..MOST_ROUNDS {
+        let mut goes_on = false;
+        for (line, polygon) in lines.iter_mut().zip(&ground.polygons) {
+            let may_be =
+                polygon.label == SemanticLabel::SideWalks && is_open(line) && polygon.normal_in_world.z > UPRIGHT;
+            let beside = || polygon.corners.iter().map(|corner| laid[*corner as usize]);
+            if may_be && line.square == Square::NONE {
+                line.square = beside().find(|it| *it != Square::NONE).unwrap_or(Square::NONE);
+            }
+            if may_be && line.square != Square::NONE && beside().any(|it| it == Square::NONE) {
+                polygon.corners.iter().for_each(|corner| laid[*corner as usize] = line.square);
+                goes_on = true;
+            }
+        }
+        if !goes_on {
+            break;
+        }
+    }
 }
 
 /// The line of the kerb beside each polygon: that of its longest edge at one.
@@ -86,5 +114,17 @@ mod tests {
         let top = polygon(&[0, 1, 2, 3], DVec3::Z, point(4.5, 4.0, 0.15));
         let skirt = polygon(&[4, 5, 1, 0], DVec3::Y, point(4.5, 3.0, -0.7));
         assert!(kerb_lines(&points, &[top, skirt]).iter().all(|line| *line == KerbLine::NONE));
+    }
+
+    #[test]
+    fn paving_goes_on_over_ground_without_a_kerb_alone() {
+        let points_in_world = (0..8).map(|k| DVec3::new(f64::from(k / 2), f64::from(k % 2), 0.0)).collect();
+        let quad = |k: u32| polygon(&[k, k + 2, k + 3, k + 1], DVec3::Z, DVec3::ZERO);
+        let ground = GroundPolygons { points_in_world, polygons: vec![quad(2), quad(0), quad(4)] };
+        let mut lines = [KerbLine::NONE; 3];
+        lines[0].square = Square { along: [1.0, 0.0], kind: 2.0 };
+        lines[2].inward = [0.0, 1.0];
+        pave_on(&ground, &mut lines);
+        assert_eq!(lines.map(|line| line.square.kind), [2.0, 2.0, 0.0]);
     }
 }

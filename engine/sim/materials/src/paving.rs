@@ -11,7 +11,7 @@ use super::square::Square;
 use super::vector::Vec3;
 use cosfly_domain::{Town, WalkableKind};
 use cosfly_frames::{DVec2, simd_kernel};
-use cosfly_town::polygons::PolygonIndex;
+use cosfly_town::polygons::{PolygonIndex, twice_area_m2};
 
 /// A kind of paving.
 struct Kind {
@@ -83,6 +83,8 @@ const DRAINS_M: f32 = 14.4;
 pub struct Squares {
     outlines: PolygonIndex,
     laid: Vec<Square>,
+    /// How the largest of them is laid.
+    largest: Square,
 }
 
 impl Squares {
@@ -108,8 +110,20 @@ impl Squares {
             let kind = hash(corner.x.round() as i32 as u32, corner.y.round() as i32 as u32) as usize % KINDS.len() + 1;
             Square { along: longest_side(outline).as_vec2().to_array(), kind: kind as f32 }
         });
-        let laid = laid.collect();
-        Self { outlines, laid }
+        let laid: Vec<Square> = laid.collect();
+        let area = |number: &usize| twice_area_m2(&outlines.outlines()[*number]).abs();
+        let largest = (0..laid.len()).max_by(|one, other| area(one).total_cmp(&area(other)));
+        Self { largest: largest.map_or(Square::NONE, |number| laid[number]), outlines, laid }
+    }
+
+    /// How a polygon of ground is laid: as the piece in which its middle lies, or as the largest where people may cross other parts of it.
+    pub fn of_polygon(&self, middle: DVec2, mut corners: impl Iterator<Item = DVec2>) -> Square {
+        match self.at(middle) {
+            own if own == Square::NONE && corners.any(|corner| self.at(0.5 * (middle + corner)) != Square::NONE) => {
+                self.largest
+            }
+            own => own,
+        }
     }
 
     /// How the ground is laid at a place in plan.
@@ -254,6 +268,9 @@ mod tests {
         let [one, other] = [[10.0, 10.0], [31.0, 30.0]].map(|at| squares.at(DVec2::from(at)));
         assert!(one.kind >= 1.0 && one.kind == other.kind);
         assert_eq!([one.along, other.along].map(|it| it.map(f32::abs)), [[1.0, 0.0], [0.0, 1.0]]);
+        let wide = [[-90.0, -90.0], [20.0, -90.0], [20.0, 40.0]].map(DVec2::from);
+        assert_eq!(squares.of_polygon(DVec2::new(-40.0, -40.0), wide.into_iter()), Square::NONE);
+        assert_eq!(squares.of_polygon(DVec2::new(0.0, -4.0), wide.into_iter()), one, "the largest");
         for elsewhere in [[210.0, 10.0], [4.0, 94.0], [-50.0, 0.0]] {
             assert_eq!(squares.at(DVec2::from(elsewhere)), Square::NONE);
         }
