@@ -155,11 +155,7 @@ impl Stage for RenderStage {
         warnings.extend(more);
         let mut town = TownInfo::of(&world.town, town_digest);
         town.synthetic.notes.extend(on_card);
-        let pair = trajectory.perturbation.as_ref().map(|twin| {
-            let expert = ItemName::own(twin.expert_item.as_str());
-            // The expert is published in the same weather, by the same camera.
-            PairInfo { expert_id: film.map_or(expert.clone(), |film| expert.with_variant(film)).to_string() }
-        });
+        let pair = pair_info(&trajectory, film);
         let record = RenderedTrajectory {
             trajectory_id: context.id.item.to_string(),
             flight_id: artifact.name.to_string(),
@@ -195,6 +191,12 @@ impl Stage for RenderStage {
         outputs.put("index", &record.to_bytes())?;
         Ok(Produced { notes, warnings, rejected: None })
     }
+}
+
+/// The expert of a perturbed flight, as published: in the same weather, by the same camera.
+fn pair_info(trajectory: &Trajectory, film: Option<&str>) -> Option<PairInfo> {
+    let expert = ItemName::own(trajectory.perturbation.as_ref()?.expert_item.as_str());
+    Some(PairInfo { expert_id: film.map_or(expert.clone(), |film| expert.with_variant(film)).to_string() })
 }
 
 /// The flight and how it is filmed, or the reason why it cannot be.
