@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, Dict, List, NamedTuple, Tuple
 
 import numpy as np
@@ -33,9 +34,11 @@ class Squares(NamedTuple):
 
 def cut(picture: Image.Image, middle: Tuple[float, float], side: float, pixels: int) -> Tuple[np.ndarray, Tuple[float, float, float]]:
     """The square around `middle`, black beyond the picture, scaled to `pixels`; its left and top edge, and pixels per pixel."""
-    left, top, whole = round(middle[0] - side / 2), round(middle[1] - side / 2), max(2, round(side))
-    square = picture.crop((left, top, left + whole, top + whole)).resize((pixels, pixels), Image.Resampling.BILINEAR)
-    return np.asarray(square), (left, top, pixels / whole)
+    left, top = middle[0] - side / 2, middle[1] - side / 2
+    column, line, whole = math.floor(left), math.floor(top), math.ceil(side) + 1
+    edges = (left - column, top - line, left - column + side, top - line + side)
+    square = picture.crop((column, line, column + whole, line + whole)).resize((pixels, pixels), Image.Resampling.BILINEAR, edges)
+    return np.asarray(square), (left, top, pixels / side)
 
 
 def seen_in(dataset: Any) -> Dict[Tuple[str, int], List[Seen]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+import copy
 from typing import Callable, Dict, List, Optional, Tuple
 
 import numpy as np
@@ -14,7 +14,7 @@ from torch import Tensor, nn
 from torch.nn import functional
 
 CELL, TEMPLATE, KERNEL = 4, 64, 10
-BATCH, RATE = 16, 2e-3
+BATCH, RATE, RISE, FALL = 16, 2e-3, 50, 400
 LEAST_LONG, MOST_LONG = 10, 56  # longer sides of bodies in training, pixels
 OUTPUTS = 5  # certainty, and the distances from the cell's middle to the left, top, right, bottom edge: logarithms of cells
 
@@ -186,7 +186,7 @@ class Lesson:
             boxes[row] = box
         return boxes, hides
 
-    def __call__(self, detector: Detector, tracker: Tracker, draws: np.random.Generator) -> Tensor:
+    def __call__(self, detector: Detector, tracker: Optional[Tracker], draws: np.random.Generator) -> Tensor:
         squares, count = self.squares, BATCH
         number = lambda low, high, *shape: draws.uniform(low, high, (count, *shape))
         rows = draws.integers(len(squares.bodies), size=count)
@@ -218,7 +218,8 @@ class Lesson:
         unlike = torch.from_numpy(is_stranger & is_object)
         templates[unlike] = templates.roll(2, 0)[unlike]
         cells = detector.trunk(pictures)
-        return people.loss(detector.head(cells)) + target.loss(tracker.compared(tracker.kernels(templates), cells))
+        loss = people.loss(detector.head(cells))
+        return loss + target.loss(tracker.compared(tracker.kernels(templates), cells)) if tracker else loss
 
 
 def on_one_trunk(detector: Detector, tracker: Tracker) -> nn.ModuleList:
@@ -226,21 +227,26 @@ def on_one_trunk(detector: Detector, tracker: Tracker) -> nn.ModuleList:
     return nn.ModuleList([detector, tracker])
 
 
-def train(detector: Detector, tracker: Tracker, squares: Squares, steps: int, seed: int, say: Callable[[str], None]) -> None:
-    """Both networks on one trunk. Adam with decay; the rate rises for a twentieth of the steps and falls along half a cosine."""
-    both, lesson, draws = on_one_trunk(detector, tracker), Lesson(squares), np.random.default_rng(seed)
-    optimiser = torch.optim.AdamW(both.parameters(), RATE, weight_decay=1e-2)
-    rise = max(1, steps // 20)
-    schedule = torch.optim.lr_scheduler.LambdaLR(optimiser, lambda step: min((step + 1) / rise, 0.5 * (1 + math.cos(math.pi * step / steps))))
-    mean = 0.0
+def train(detector: Detector, tracker: Tracker, squares: Squares, together: int, alone: int, seed: int, say: Callable[[str], None]) -> None:
+    """Both networks on one trunk, which the tracker then keeps; the detector learns on with a copy."""
+    lesson, draws = Lesson(squares), np.random.default_rng(seed)
+    learn(on_one_trunk(detector, tracker), lambda: lesson(detector, tracker, draws), together, lambda line: say(f"both, {line}"))
+    tracker.trunk = copy.deepcopy(detector.trunk)
+    learn(detector, lambda: lesson(detector, None, draws), alone, lambda line: say(f"detector, {line}"))
+    detector.eval(), tracker.eval()
+
+
+def learn(network: nn.Module, lesson: Callable[[], Tensor], steps: int, say: Callable[[str], None]) -> None:
+    """Adam with decay; the rate rises for the first `RISE` steps, stays, and falls to nothing in the last `FALL`."""
+    optimiser, mean = torch.optim.AdamW(network.parameters(), RATE, weight_decay=1e-2), 0.0
+    schedule = torch.optim.lr_scheduler.LambdaLR(optimiser, lambda step: min((step + 1) / RISE, 1.0, (steps - step) / FALL))
     for step in range(steps):
-        loss = lesson(detector, tracker, draws)
+        loss = lesson()
         optimiser.zero_grad()
         loss.backward()
-        nn.utils.clip_grad_norm_(both.parameters(), 5.0)
+        nn.utils.clip_grad_norm_(network.parameters(), 5.0)
         optimiser.step()
         schedule.step()
         mean += (float(loss.detach()) - mean) / min(step + 1, 100)
         if (step + 1) % 100 == 0:
             say(f"step {step + 1} of {steps}: loss {mean:.3f}")
-    both.eval()

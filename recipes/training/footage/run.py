@@ -47,7 +47,8 @@ def arguments() -> argparse.Namespace:
     add("--others", **sequence, help="the same for a sequence that follows anything else: for the tracker alone")
     add("--without", choices=sorted(PARTS), help="leave a part of the recipe out, to see what it is good for")
     add("--set", action="append", default=[], metavar="KEY=VALUE", help="change the recipe, as in `cosfly run`")
-    add("--steps", type=counted, default=6000, help="steps of training, of both networks at once (default: 6000, half an hour of one core)")
+    add("--steps", type=counted, default=1500, help="steps of training of both networks at once (default: 1500, 0.4 s of one core each)")
+    add("--alone", type=counted, default=4500, help="steps in which the detector then learns alone (default: 4500, 0.3 s of one core each)")
     add("--per-frame", type=counted, default=3, help="bodies around which squares are cut from each picture (default: 3)")
     add("--every", type=counted, default=4, help="score the detector on every n-th picture of a sequence (default: 4)")
     add("--seed", type=int, default=1)
@@ -79,7 +80,7 @@ def networks_of(options: argparse.Namespace, out: Path, dataset: Path) -> Dict[s
     from crops import squares_of
 
     pictures = hashlib.sha256((dataset / "SHA256SUMS").read_bytes()).hexdigest()
-    asked = {name: getattr(options, name) for name in ("steps", "per_frame", "seed", "threads")}
+    asked = {name: getattr(options, name) for name in ("steps", "alone", "per_frame", "seed", "threads")}
     made = json.dumps({**asked, "pictures": pictures})
     found = {"detector": networks.Detector(), "tracker": networks.Tracker()}
     kept = {name: torch.load(out / f"{name}.pt") for name in found if (out / f"{name}.pt").exists()}
@@ -93,7 +94,7 @@ def networks_of(options: argparse.Namespace, out: Path, dataset: Path) -> Dict[s
     detector, tracker = found["detector"], found["tracker"] = networks.Detector(), networks.Tracker()
     weights = sum(it.numel() for it in networks.on_one_trunk(detector, tracker).parameters())
     print(f"{weights:,} weights, {len(squares.bodies):,} squares", flush=True)
-    networks.train(detector, tracker, squares, options.steps, options.seed, lambda line: print(line, flush=True))
+    networks.train(detector, tracker, squares, options.steps, options.alone, options.seed, lambda line: print(line, flush=True))
     for name, network in found.items():
         torch.save({"made": made, "weights": network.state_dict()}, out / f"{name}.pt")
     return found

@@ -9,19 +9,14 @@ import numpy as np
 import torch
 from boxes import average_precision, matches, overlaps
 from crops import SIDE, as_input, cut, seen_in
-from networks import CELL, TEMPLATE, Detector, Tracker, distinct, peaks
+from follower import LENGTHS, Follower
+from networks import Detector, Tracker, distinct, peaks
 from PIL import Image
 
 RIGHT, SURE, FAINT = 0.4, 0.5, 0.03  # overlap of a right box; certainty of a sure one; certainty below which nothing is a box
 FALSE_A_SQUARE = 0.05
-LENGTHS = 5  # sides of squares, in longer sides of the box
 STRETCHES, DRAWN = 10, 1000
 NEAR_PX = 20
-# The tracker: what follows is in cells, shares and logarithms, chosen on few sequences.
-WIDE, TIGHT, LEARNT = 0.7, 1.5, 0.02  # width of the filter's answer; how much of the surroundings it learns, targets; share of a new picture
-FIT, MIDDLE, AHEAD = 0.5, 0.5, 0.5  # weights of the network's certainty beside the filter's answer, of its middle, and of the last motion
-GROWTH, STILL, MOST_GROWTH, TRUST = 0.3, 0.06, 0.3, 0.7  # share of a new size; change that is none; largest change; size that is not believed
-LEAST, PATIENCE, FOUND = 0.1, 3, 0.4  # answer of a lost target; pictures until all around is searched; certainty of one that is found again
 LEAST_PX = 10
 Begin = Callable[[Image.Image, np.ndarray], Any]  # a tracker in a sequence, from its first picture and box on
 
@@ -141,113 +136,6 @@ def precision_of(found: List[np.ndarray], boxes: np.ndarray, overlap: float) -> 
     """Average precision of chosen frames, each of which has one person."""
     marked = [matches(of_frame, box[None], overlap) for of_frame, box in zip(found, boxes)]
     return lambda chosen: average_precision([it for frame in chosen for it in marked[frame]], len(chosen))
-
-
-class Filter:
-    """A correlation filter learnt in the sequence itself (MOSSE, CVPR 2010) on the trunk's first layers: the target, and not what is around it."""
-
-    def __init__(self, cells: np.ndarray, size: np.ndarray) -> None:
-        self.far = np.arange(cells.shape[-1]) - cells.shape[-1] // 2
-        near = np.exp(-0.5 * (self.far / WIDE) ** 2)
-        self.wanted = np.conj(np.fft.rfft2(np.fft.ifftshift(np.outer(near, near))))
-        self.window = np.outer(np.hanning(len(self.far)), np.hanning(len(self.far)))
-        self.above, self.below = self._of(cells, size)
-
-    def _of(self, cells: np.ndarray, size: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
-        """`size` is the target's, cells; the square's middle is the target's."""
-        wide, high = (np.exp(-0.5 * (np.abs(self.far) / np.maximum(TIGHT * length / 2, 0.8)) ** 4) for length in size)
-        target, whole = (np.fft.rfft2(cells * it) for it in (np.outer(high, wide) * self.window, self.window))
-        power = lambda of: (of * of.conj()).real.sum(axis=0)
-        return self.wanted * target, (power(target) + power(whole)) / 2
-
-    def update(self, cells: np.ndarray, size: np.ndarray) -> None:
-        above, below = self._of(cells, size)
-        self.above, self.below = (1 - LEARNT) * self.above + LEARNT * above, (1 - LEARNT) * self.below + LEARNT * below
-
-    def answer(self, cells: np.ndarray) -> np.ndarray:
-        """How well the target's middle fits each cell, about 1 at best."""
-        waves = np.fft.rfft2(cells * self.window)
-        return np.fft.fftshift(np.fft.irfft2((self.above.conj() * waves).sum(axis=0) / (self.below + 1e-3 * self.below.mean() + 1e-9), s=self.window.shape))
-
-
-class Follower:
-    """The tracker in a sequence: from the first box on, a box for each picture.
-
-    The filter, which learns what this target looks like, says where it is, together with the network; the network alone says how large, and
-    looks for it in twice the square where both have lost it.
-    """
-
-    def __init__(self, tracker: Tracker, picture: Image.Image, box: np.ndarray) -> None:
-        self.tracker, self.middle, self.size = tracker, (box[:2] + box[2:]) / 2, box[2:] - box[:2]
-        self.moved, self.lost = np.zeros(2), 0
-        across = np.sin(np.pi * (np.arange(SIDE // CELL) + 0.5) / (SIDE // CELL))
-        self.nearness = 0.7 + 0.3 * np.outer(across, across)
-        square, _ = cut(picture, tuple(self.middle), self.size.max() * LENGTHS * TEMPLATE / SIDE, TEMPLATE)
-        with torch.no_grad():
-            self.kernels = tracker.kernels(as_input(square)[None])
-        near, found, _, scale = self._look(picture, self.middle)
-        self.filter = Filter(near, self.size * scale / CELL)
-        _, size, certainty = box_beside(found, np.array(self.nearness.shape) // 2)
-        self.known = self.size * scale / size  # what the first box calls its size, in what the network does
-        self.trust = max(0.0, 1 - float(np.abs(np.log(self.known)).max()) / TRUST) * (certainty > 0.2)
-
-    @torch.no_grad()
-    def _look(self, picture: Image.Image, middle: np.ndarray, larger: int = 1) -> Tuple[np.ndarray, torch.Tensor, np.ndarray, float]:
-        """First layers and answer of the network for a square, its left top corner, and pixels per pixel."""
-        square, (left, top, scale) = cut(picture, tuple(middle), self.size.max() * LENGTHS * larger, SIDE * larger)
-        near = self.tracker.trunk.stem(as_input(square)[None])
-        found = self.tracker.compared(self.kernels, self.tracker.trunk.from_stem(near))[0]
-        return near[0].numpy(), found, np.array([left, top]), scale
-
-    def update(self, picture: Image.Image) -> np.ndarray:
-        near, found, corner, scale = self._look(picture, self.middle + AHEAD * self.moved)
-        answer = self.filter.answer(near)
-        likely = answer.clip(0, 1) + FIT * torch.sigmoid(found[0]).numpy() * self.nearness
-        place = np.array(np.unravel_index(likely.argmax(), likely.shape))
-        middle, size, certainty = box_beside(found, place)
-        self.lost = self.lost + 1 if max(0.6 * answer[tuple(place)], certainty) < LEAST else 0
-        if self.lost >= PATIENCE:
-            self._search(picture)
-        else:
-            weight, before = certainty * MIDDLE * self.trust, self.middle
-            self.middle = ((1 - weight) * finer(answer, place) * CELL + weight * middle) / scale + corner
-            self.moved = (self.moved + self.middle - before) / 2
-            grown = np.log(np.maximum(size * self.known, 2) / (self.size * scale)).clip(-MOST_GROWTH, MOST_GROWTH)
-            grown = 0.8 * grown.mean() + 0.2 * grown
-            grown = np.sign(grown) * np.maximum(np.abs(grown) - STILL, 0)
-            self.size = np.maximum(4, self.size * np.exp(GROWTH * certainty * self.trust * grown))
-            if not self.lost:
-                cell = np.round((self.middle - corner) * scale / CELL).astype(int)[::-1]
-                self.filter.update(np.roll(near, tuple(np.array(answer.shape) // 2 - cell), (1, 2)), self.size * scale / CELL)
-        return np.concatenate([self.middle - self.size / 2, self.middle + self.size / 2])
-
-    def _search(self, picture: Image.Image) -> None:
-        self.moved = np.zeros(2)
-        _, found, corner, scale = self._look(picture, self.middle, 2)
-        boxes = peaks(found, FOUND)
-        if len(boxes):
-            box = boxes[boxes[:, 0].argmax(), 1:]
-            self.middle = (box[:2] + box[2:]) / 2 / scale + corner
-
-
-def box_beside(found: torch.Tensor, place: np.ndarray) -> Tuple[np.ndarray, np.ndarray, float]:
-    """Middle, size and certainty of the network's box at or beside a cell, pixels of the square."""
-    top, left = np.maximum(place - 2, 0)
-    around = torch.sigmoid(found[0, top : place[0] + 3, left : place[1] + 3])
-    row, column = divmod(int(around.argmax()), around.shape[1])
-    edges = found[1:, top + row, left + column].clamp(max=6).exp().numpy() * CELL
-    middle = np.array([left + column + 0.5, top + row + 0.5]) * CELL + (edges[2:] - edges[:2]) / 2
-    return middle, edges[:2] + edges[2:], float(around.max())
-
-
-def finer(answer: np.ndarray, place: np.ndarray) -> np.ndarray:
-    """Where a peak is between cells, (x, y), by a parabola along each axis."""
-    moved = place.astype(float)
-    for axis, step in enumerate(np.eye(2, dtype=int)):
-        before, here, after = (answer[tuple(np.clip(place + it * step, 0, len(answer) - 1))] for it in (-1, 0, 1))
-        curve = before - 2 * here + after
-        moved[axis] += float(np.clip((before - after) / 2 / curve, -0.5, 0.5)) if curve < 0 else 0.0
-    return moved[::-1]
 
 
 class OfOpenCv:
