@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Tuple
+from functools import reduce
+from typing import Any, Tuple
 
 import numpy as np
 import torch
@@ -14,89 +15,73 @@ from torch.nn import functional
 
 LENGTHS = 5  # sides of squares, in longer sides of the box
 FINER = 2  # pixels of the filter's square for each of the network's
+CELLS = FINER * SIDE // CELL
 # What follows is in cells of the filter, shares and logarithms.
 WIDE, TIGHT, LEARNT = 1.4, 1.5, 0.02  # width of the filter's answer; how much of the surroundings it learns, targets; share of a new picture
-FIT, MIDDLE, AHEAD = 0.5, 0.5, 0.5  # weights of the network's certainty beside the filter's answer, of its middle, and of the last motion
-GROWTH, STILL, MOST_GROWTH, TRUST = 0.3, 0.06, 0.3, 0.7  # share of a new size; change that is none; largest change; size that is not believed
+FIT, AHEAD = 0.5, 0.5  # weights of the network's certainty beside the filter's answer, and of the last motion
 LEAST, PATIENCE, FOUND = 0.1, 3, 0.4  # answer of a lost target; pictures until all around is searched; certainty of one that is found again
-SIZES, STEP, SIZE_WIDE, SIZE_LEARNT, PATCH, AROUND = 17, 0.03, 1.2, 0.025, 32, 1.0  # sizes that are compared; their steps; width of the answer
-SIZED = 1.0
-
-
-def waves_of(answer: np.ndarray) -> np.ndarray:
-    return np.conj(np.fft.rfftn(np.fft.ifftshift(answer)))
+SIZES, STEP, SIZE_WIDE, SIZE_LEARNT = 17, 0.03, 1.2, 0.025  # sizes that are compared, their steps; width of the answer; share of a new picture
+PATCH = 32  # pixels of a side of the target's patch
 
 
 class Filter:
-    """A correlation filter learnt in the sequence itself (MOSSE, CVPR 2010) on the trunk's first layers: the target, and not what is around it."""
+    """A correlation filter learnt in the sequence itself (MOSSE, CVPR 2010), over places or, as in DSST (BMVC 2014), over sizes."""
 
-    def __init__(self, cells: np.ndarray, size: np.ndarray) -> None:
-        self.far = np.arange(cells.shape[-1]) - cells.shape[-1] // 2
-        near = np.exp(-0.5 * (self.far / WIDE) ** 2)
-        self.wanted = waves_of(np.outer(near, near))
-        self.window = np.outer(np.hanning(len(self.far)), np.hanning(len(self.far)))
-        self.above, self.below = self._of(cells, size)
+    def __init__(self, shape: Tuple[int, ...], width: float, learnt: float) -> None:
+        self.shape, self.axes, self.learnt = shape, tuple(range(-len(shape), 0)), learnt
+        outer = lambda rows: reduce(np.multiply.outer, rows)
+        wanted = outer([np.exp(-0.5 * ((np.arange(length) - length // 2) / width) ** 2) for length in shape])
+        self.wanted, self.window = self._waves(np.fft.ifftshift(wanted)).conj(), outer([np.hanning(length + 2)[1:-1] for length in shape])
+        self.above: Any = 0.0
+        self.below: Any = 0.0
 
-    def _of(self, cells: np.ndarray, size: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
-        """`size` is the target's, cells; the square's middle is the target's."""
-        wide, high = (np.exp(-0.5 * (np.abs(self.far) / np.maximum(TIGHT * length / 2, 0.8)) ** 4) for length in size)
-        target, whole = (np.fft.rfft2(cells * it) for it in (np.outer(high, wide) * self.window, self.window))
+    def _waves(self, seen: np.ndarray) -> np.ndarray:
+        return np.fft.rfftn(seen, axes=self.axes)
+
+    def learn(self, seen: np.ndarray, is_target: Any = 1.0) -> None:
+        """`seen`: (numbers, *shape), the target in the middle; `is_target`: how much each place is the target's."""
         power = lambda of: (of * of.conj()).real.sum(axis=0)
-        return self.wanted * target, (power(target) + power(whole)) / 2
+        target, whole, kept = self._waves(seen * is_target * self.window), self._waves(seen * self.window), 1 - self.learnt
+        if not np.ndim(self.above):
+            kept = 0.0
+        self.above = kept * self.above + (1 - kept) * self.wanted * target
+        self.below = kept * self.below + (1 - kept) * (power(target) + power(whole)) / 2
 
-    def update(self, cells: np.ndarray, size: np.ndarray) -> None:
-        above, below = self._of(cells, size)
-        self.above, self.below = (1 - LEARNT) * self.above + LEARNT * above, (1 - LEARNT) * self.below + LEARNT * below
-
-    def answer(self, cells: np.ndarray) -> np.ndarray:
-        """How well the target's middle fits each cell, about 1 at best."""
-        waves = np.fft.rfft2(cells * self.window)
-        return np.fft.fftshift(np.fft.irfft2((self.above.conj() * waves).sum(axis=0) / (self.below + 1e-3 * self.below.mean() + 1e-9), s=self.window.shape))
+    def answer(self, seen: np.ndarray) -> np.ndarray:
+        """How well the target fits each place, about 1 at best."""
+        waves = (self.above.conj() * self._waves(seen * self.window)).sum(axis=0) / (self.below + 1e-3 * self.below.mean() + 1e-9)
+        return np.fft.fftshift(np.fft.irfftn(waves, s=self.shape))
 
 
-class SizeFilter:
-    """The same over sizes (DSST, BMVC 2014): the target's patch, cut larger and smaller, against the size it was learnt at."""
-
-    def __init__(self, patches: np.ndarray) -> None:
-        steps = np.arange(SIZES) - SIZES // 2
-        self.wanted = waves_of(np.exp(-0.5 * (steps / SIZE_WIDE) ** 2))
-        self.window = np.hanning(SIZES + 2)[1:-1]
-        self.above, self.below = self._of(patches)
-
-    def _of(self, patches: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
-        waves = np.fft.rfft(patches * self.window)
-        return self.wanted * waves, (waves * waves.conj()).real.sum(axis=0)
-
-    def update(self, patches: np.ndarray) -> None:
-        above, below = self._of(patches)
-        self.above, self.below = (1 - SIZE_LEARNT) * self.above + SIZE_LEARNT * above, (1 - SIZE_LEARNT) * self.below + SIZE_LEARNT * below
-
-    def answer(self, patches: np.ndarray) -> np.ndarray:
-        waves = np.fft.rfft(patches * self.window)
-        return np.fft.fftshift(np.fft.irfft((self.above.conj() * waves).sum(axis=0) / (self.below + 1e-3 * self.below.mean() + 1e-9), n=SIZES))
+def near(size: np.ndarray) -> np.ndarray:
+    """The places of a target of so many cells, and few around it."""
+    far = np.abs(np.arange(CELLS) - CELLS // 2)
+    wide, high = (np.exp(-0.5 * (far / np.maximum(TIGHT * length / 2, 0.8)) ** 4) for length in size)
+    return np.outer(high, wide)
 
 
 class Follower:
     """The tracker in a sequence: from the first box on, a box for each picture.
 
-    The filter, which learns what this target looks like, says where it is, together with the network; the network alone says how large, and
-    looks for it in twice the square where both have lost it.
+    Filters, which learn what this target looks like, say where it is and how large; the network says where, too, and looks for it in twice
+    the square where both have lost it.
     """
 
     def __init__(self, tracker: Tracker, picture: Image.Image, box: np.ndarray) -> None:
         self.tracker, self.middle, self.size = tracker, (box[:2] + box[2:]) / 2, box[2:] - box[:2]
         self.moved, self.lost = np.zeros(2), 0
-        across = np.sin(np.pi * (np.arange(FINER * SIDE // CELL) + 0.5) / (FINER * SIDE // CELL))
+        across = np.sin(np.pi * (np.arange(CELLS) + 0.5) / CELLS)
         self.nearness = 0.7 + 0.3 * np.outer(across, across)
         square, _ = cut(picture, tuple(self.middle), self.size.max() * LENGTHS * TEMPLATE / SIDE, TEMPLATE)
         with torch.no_grad():
             self.kernels = tracker.kernels(as_input(square)[None])
+        self.places, self.sizes = Filter((CELLS, CELLS), WIDE, LEARNT), Filter((SIZES,), SIZE_WIDE, SIZE_LEARNT)
+        self._learn(picture)
+
+    def _learn(self, picture: Image.Image) -> None:
         pixels, _, scale = self._around(picture, self.middle)
-        self.filter, self.sizes = Filter(self._cells(pixels), self.size * scale / CELL), SizeFilter(self._patches(picture))
-        found = self._found(functional.avg_pool2d(pixels, FINER))
-        _, size, certainty = box_beside(found, np.array(found.shape[1:]) // 2)
-        self.known = self.size * scale / FINER / size  # what the first box calls its size, in what the network does
-        self.trust = max(0.0, 1 - float(np.abs(np.log(self.known)).max()) / TRUST) * (certainty > 0.2)
+        self.places.learn(self._cells(pixels), near(self.size * scale / CELL))
+        self.sizes.learn(self._patches(picture))
 
     def _around(self, picture: Image.Image, middle: np.ndarray) -> Tuple[Tensor, np.ndarray, float]:
         """The filter's square, its left top corner, and pixels per pixel."""
@@ -116,7 +101,7 @@ class Follower:
         """What the first layers see in the target's box, cut larger and smaller, (numbers, SIZES)."""
         patches = []
         for grown in np.exp(STEP * (np.arange(SIZES) - SIZES // 2)):
-            half = np.maximum(self.size * grown * AROUND, 4) / 2
+            half = np.maximum(self.size * grown, 4) / 2
             left, top, right, bottom = *np.floor(self.middle - half), *np.ceil(self.middle + half)
             edges = [*(self.middle - half - [left, top]), *(self.middle + half - [left, top])]
             patch = picture.crop((left, top, right, bottom)).resize((PATCH, PATCH), Image.Resampling.BILINEAR, edges)
@@ -125,29 +110,20 @@ class Follower:
 
     def update(self, picture: Image.Image) -> np.ndarray:
         pixels, corner, scale = self._around(picture, self.middle + AHEAD * self.moved)
-        found, answer = self._found(functional.avg_pool2d(pixels, FINER)), self.filter.answer(self._cells(pixels))
+        found, answer = self._found(functional.avg_pool2d(pixels, FINER)), self.places.answer(self._cells(pixels))
         certain = functional.interpolate(torch.sigmoid(found[None, :1]), scale_factor=FINER, mode="bilinear", align_corners=False)[0, 0].numpy()
         likely = answer.clip(0, 1) + FIT * certain * self.nearness
         place = np.array(np.unravel_index(likely.argmax(), likely.shape))
-        middle, size, certainty = box_beside(found, place // FINER)
-        self.lost = self.lost + 1 if max(0.6 * answer[tuple(place)], certainty) < LEAST else 0
+        self.lost = self.lost + 1 if max(0.6 * answer[tuple(place)], certain[tuple(place)]) < LEAST else 0
         if self.lost >= PATIENCE:
             self._search(picture)
-        else:
-            weight, before = certainty * MIDDLE * self.trust, self.middle
-            self.middle = ((1 - weight) * finer(answer, place) * CELL + weight * middle * FINER) / scale + corner
+        elif not self.lost:
+            before = self.middle
+            self.middle = finer(answer, place) * CELL / scale + corner
             self.moved = (self.moved + self.middle - before) / 2
-            grown = np.log(np.maximum(size * self.known * FINER, 2) / (self.size * scale)).clip(-MOST_GROWTH, MOST_GROWTH)
-            grown = 0.8 * grown.mean() + 0.2 * grown
-            grown = np.sign(grown) * np.maximum(np.abs(grown) - STILL, 0)
-            self.size = np.maximum(4, self.size * np.exp(GROWTH * certainty * self.trust * grown))
-            if not self.lost:
-                if SIZED:
-                    fits = self.sizes.answer(self._patches(picture))
-                    self.size = np.maximum(4, self.size * np.exp(SIZED * STEP * (float(peak(fits)) - SIZES // 2)))
-                    self.sizes.update(self._patches(picture))
-                pixels, _, scale = self._around(picture, self.middle)
-                self.filter.update(self._cells(pixels), self.size * scale / CELL)
+            fits = self.sizes.answer(self._patches(picture))
+            self.size = np.maximum(4, self.size * np.exp(STEP * (peak(fits, int(fits.argmax())) - SIZES // 2)))
+            self._learn(picture)
         return np.concatenate([self.middle - self.size / 2, self.middle + self.size / 2])
 
     def _search(self, picture: Image.Image) -> None:
@@ -159,19 +135,8 @@ class Follower:
             self.middle = (box[:2] + box[2:]) / 2 / scale + np.array([left, top])
 
 
-def box_beside(found: torch.Tensor, place: np.ndarray) -> Tuple[np.ndarray, np.ndarray, float]:
-    """Middle, size and certainty of the network's box at or beside a cell, pixels of the square."""
-    top, left = np.maximum(place - 2, 0)
-    around = torch.sigmoid(found[0, top : place[0] + 3, left : place[1] + 3])
-    row, column = divmod(int(around.argmax()), around.shape[1])
-    edges = found[1:, top + row, left + column].clamp(max=6).exp().numpy() * CELL
-    middle = np.array([left + column + 0.5, top + row + 0.5]) * CELL + (edges[2:] - edges[:2]) / 2
-    return middle, edges[:2] + edges[2:], float(around.max())
-
-
-def peak(answer: np.ndarray, place: int = -1) -> float:
+def peak(answer: np.ndarray, place: int) -> float:
     """Where a row of answers is highest, between its places by a parabola."""
-    place = int(answer.argmax()) if place < 0 else place
     before, here, after = (answer[min(max(place + it, 0), len(answer) - 1)] for it in (-1, 0, 1))
     curve = before - 2 * here + after
     return place + (float(np.clip((before - after) / 2 / curve, -0.5, 0.5)) if curve < 0 else 0.0)

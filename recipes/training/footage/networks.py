@@ -14,7 +14,7 @@ from torch import Tensor, nn
 from torch.nn import functional
 
 CELL, TEMPLATE, KERNEL = 4, 64, 10
-BATCH, RATE, RISE, FALL = 16, 2e-3, 50, 400
+BATCH, RATE, RISE, FALL = 8, 1.5e-3, 50, 400  # steps in which the rate rises, and in which it falls at least
 LEAST_LONG, MOST_LONG = 10, 56  # longer sides of bodies in training, pixels
 OUTPUTS = 5  # certainty, and the distances from the cell's middle to the left, top, right, bottom edge: logarithms of cells
 
@@ -34,9 +34,7 @@ class Trunk(nn.Module):
         self.to_middle, self.to_cells = block(96 + 64, 64), block(64 + 32, 48, size=1)
 
     def forward(self, pictures: Tensor) -> Tensor:
-        return self.from_stem(self.stem(pictures))
-
-    def from_stem(self, cells: Tensor) -> Tensor:
+        cells = self.stem(pictures)
         middle = self.middle(cells)
         larger = functional.interpolate(self.deep(middle), size=middle.shape[-2:], mode="nearest")
         middle = self.to_middle(torch.cat([larger, middle], dim=1))
@@ -237,9 +235,9 @@ def train(detector: Detector, tracker: Tracker, squares: Squares, together: int,
 
 
 def learn(network: nn.Module, lesson: Callable[[], Tensor], steps: int, say: Callable[[str], None]) -> None:
-    """Adam with decay; the rate rises for the first `RISE` steps, stays, and falls to nothing in the last `FALL`."""
-    optimiser, mean = torch.optim.AdamW(network.parameters(), RATE, weight_decay=1e-2), 0.0
-    schedule = torch.optim.lr_scheduler.LambdaLR(optimiser, lambda step: min((step + 1) / RISE, 1.0, (steps - step) / FALL))
+    """Adam with decay; the rate rises at first, stays, and falls to nothing in the last fifth of the steps."""
+    optimiser, fall, mean = torch.optim.AdamW(network.parameters(), RATE, weight_decay=1e-2), max(FALL, steps // 5), 0.0
+    schedule = torch.optim.lr_scheduler.LambdaLR(optimiser, lambda step: min((step + 1) / RISE, 1.0, (steps - step) / fall))
     for step in range(steps):
         loss = lesson()
         optimiser.zero_grad()

@@ -79,8 +79,11 @@ def mean_of(values: List[float]) -> Interval:
 
 
 @torch.no_grad()
-def people_in(detector: Detector, square: np.ndarray) -> np.ndarray:
-    return distinct(peaks(detector(as_input(square)[None])[0], FAINT))
+def seen_both_ways(detector: Detector, square: np.ndarray) -> np.ndarray:
+    """Boxes of the mean answer to a picture and to its mirror image."""
+    pixels = as_input(square)[None]
+    seen, mirrored = detector(torch.cat([pixels, pixels.flip(3)]))
+    return peaks((seen + mirrored.flip(2)[[0, 3, 2, 1, 4]]) / 2, FAINT)
 
 
 def inside(box: np.ndarray, side: float, picture: Image.Image) -> tuple:
@@ -97,7 +100,7 @@ def in_squares(
     for picture, box, people in zip(pictures, boxes, others or [np.zeros((0, 4))] * len(boxes)):
         side = LENGTHS * (box[3] - box[1])
         square, (left, top, scale) = cut(picture, inside(box, side, picture), side, SIDE)
-        found = people_in(detector, square)
+        found = distinct(seen_both_ways(detector, square))
         inside_square = lambda box: (box - [left, top, left, top]) * scale
         is_right = overlaps(inside_square(box), found[:, 1:]) > RIGHT
         is_other = np.array([(overlaps(it, inside_square(people)) > 0.2).any() for it in found[:, 1:]], bool)
@@ -121,13 +124,12 @@ def in_squares(
     }
 
 
-@torch.no_grad()
 def in_whole(detector: Detector, picture: Image.Image) -> np.ndarray:
     """People in a whole picture, at six sizes."""
     found = []
     for scale in 2.0 ** -np.arange(0, 3, 0.5):
         size = [max(SIDE // 4, round(length * scale) // 16 * 16) for length in picture.size]
-        seen = peaks(detector(as_input(np.asarray(picture.resize(size, Image.Resampling.BILINEAR)))[None])[0], FAINT)
+        seen = seen_both_ways(detector, np.asarray(picture.resize(size, Image.Resampling.BILINEAR)))
         found.append(seen * [1, *np.tile(np.divide(picture.size, size), 2)])
     return distinct(np.concatenate(found))
 
