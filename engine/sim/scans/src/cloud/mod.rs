@@ -6,6 +6,7 @@
 pub mod buildings;
 pub mod classify;
 pub mod ground;
+mod houses;
 mod numbers;
 pub mod options;
 pub mod outline;

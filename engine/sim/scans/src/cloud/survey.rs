@@ -48,6 +48,8 @@ pub struct Survey<'a> {
     pub reach_m: f64,
     /// Height of the steps in which boxes follow roofs and things, metres.
     pub step_m: f64,
+    /// Whether the file tells plants from other things.
+    pub tells_plants: bool,
 }
 
 impl<'a> Survey<'a> {
@@ -56,7 +58,7 @@ impl<'a> Survey<'a> {
         let voxel_m = sorted.grid.cell_m;
         let reach_m = (REACH_IN_SPACINGS * spacing_m).clamp(voxel_m, WIDEST_REACH_M.max(voxel_m));
         let step_m = step_m.unwrap_or(USUAL_STEP_M.max(voxel_m));
-        Self { cloud, relief, grid: sorted.grid, sorted, reach_m, step_m }
+        Self { cloud, relief, grid: sorted.grid, sorted, reach_m, step_m, tells_plants: true }
     }
 
     /// The points of a cell.

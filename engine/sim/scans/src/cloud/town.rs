@@ -30,10 +30,12 @@ pub fn town_of(mut cloud: Cloud, options: &CloudOptions) -> Result<(Town, Vec<St
     }
     warnings.extend(survey::unevenness(&cloud, &sorted, is_classified));
     let relief = ground::relief(&cloud, &sorted);
-    if let Some(unknown) = Unknown::of(&cloud) {
+    let unknown = Unknown::of(&cloud);
+    if let Some(unknown) = unknown {
         notes.push(classify::estimate(&mut cloud, &sorted, &relief, unknown));
     }
-    let survey = Survey::new(&cloud, relief, sorted, spacing_m, options.step_m);
+    let mut survey = Survey::new(&cloud, relief, sorted, spacing_m, options.step_m);
+    survey.tells_plants = !matches!(unknown, Some(Unknown::Both | Unknown::Plants));
     let mut obstacles = Vec::new();
     let houses = buildings::add(&survey, &mut obstacles);
     trees::add(&survey, &mut obstacles);
@@ -60,6 +62,10 @@ pub fn town_of(mut cloud: Cloud, options: &CloudOptions) -> Result<(Town, Vec<St
     let trunks = obstacles.iter().filter(|one| one.kind == ObstacleKind::TreeTrunk).count();
     if trunks > 0 {
         notes.push(format!("{trunks} trunks are invented under the crowns of the cloud"));
+    }
+    let masts = obstacles.iter().filter(|one| one.kind == ObstacleKind::Pole && one.synthetic).count();
+    if masts > 0 {
+        notes.push(format!("{masts} masts are invented under things that hang in the air"));
     }
     let mut meshes = MeshBuilder::default();
     survey.relief.add_mesh(&mut meshes, |at| label(&survey, at));

@@ -2,12 +2,12 @@
 //! the walls of a house as parts of the house.
 
 use super::class;
+use super::houses::Houses;
 use super::numbers::next_id;
 use super::survey::{Survey, coarse_enough, grid_of};
 use crate::grid::{Buckets, Grid};
 use cosfly_domain::{Obstacle, ObstacleKind, OrientedBox};
 use cosfly_frames::{DVec2, DVec3};
-use cosfly_geometry::{BoxBvh, SpatialQuery};
 use rayon::prelude::*;
 
 /// Narrowest cells of the canopy, metres.
@@ -26,10 +26,6 @@ const ABOVE_GROUND_M: f64 = 0.15;
 /// Half width of a trunk as a share of the tree's height, and its limits, metres.
 const TRUNK_SHARE: f64 = 0.012;
 const TRUNK_M: [f64; 2] = [0.06, 0.4];
-/// High plants on a wall, whose boxes are all this near a house in their middle and this narrow to a side, are balconies,
-/// pipes and creepers, metres.
-const ON_WALL_M: f64 = 1.0;
-const HALF_WIDTH_ON_WALL_M: f64 = 1.25;
 /// Extent of a layer: standard deviations of its points about their middle, at most. Wider ones are twigs.
 const DEVIATIONS: f64 = 2.2;
 
@@ -80,31 +76,6 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) {
         }
         obstacles.extend(crown.into_iter().map(|shape| obstacle(shape, kind, false)));
         object_id += u32::from(has_boxes);
-    }
-}
-
-/// Boxes of buildings, and the thing that each belongs to.
-struct Houses {
-    boxes: BoxBvh,
-    things: Vec<u32>,
-}
-
-impl Houses {
-    fn of(obstacles: &[Obstacle]) -> Self {
-        let houses = || obstacles.iter().filter(|one| one.kind == ObstacleKind::Building);
-        let boxes = BoxBvh::build(houses().map(|one| one.shape).collect());
-        Self { boxes, things: houses().map(|one| one.object_id).collect() }
-    }
-
-    /// The house on whose wall all boxes of a plant are.
-    fn behind(&self, plant: &[OrientedBox]) -> Option<u32> {
-        let house_of = |shape: &OrientedBox| {
-            let is_narrow = shape.half_extents_m.truncate().min_element() <= HALF_WIDTH_ON_WALL_M;
-            let house = self.boxes.nearest(shape.center_in_world, ON_WALL_M)?;
-            is_narrow.then(|| self.things[house.primitive as usize])
-        };
-        let (first, rest) = plant.split_first()?;
-        rest.iter().all(|shape| house_of(shape).is_some()).then(|| house_of(first)).flatten()
     }
 }
 
