@@ -15,6 +15,8 @@ import numpy as np
 from shared import end_with, place, rows, turned
 
 BETWEEN = 20
+# People are circles from above, all others boxes.
+ROUND = {"pedestrian", "runner", "child", "elder", "push_chair", "dog_walker", "wheelchair", "sitter"}
 
 
 def axes(yaw):
@@ -24,7 +26,7 @@ def axes(yaw):
 def gap(a, b):
     """Distance between two bodies seen from above, metres; negative where they overlap (for two boxes, the largest gap along an axis)."""
     between = np.array(b["feet_in_world_m"][:2]) - a["feet_in_world_m"][:2]
-    round_ones = [it["kind"] == "pedestrian" for it in (a, b)]
+    round_ones = [it["kind"] in ROUND for it in (a, b)]
     if all(round_ones):
         return np.hypot(*between) - (a["size_m"][0] + b["size_m"][0]) / 2
     if any(round_ones):
