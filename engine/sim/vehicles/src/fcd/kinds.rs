@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FcdType {
-    /// Kind: `pedestrian`, `bicycle`, `motorcycle`, `car`, `van`, `truck` or `bus`.
+    /// Kind: `pedestrian`, `bicycle`, `e_scooter`, `motorcycle`, `car`, `van`, `truck` or `bus`.
     #[schemars(with = "String")]
     pub kind: BodyKind,
     /// Length, width and height, metres. Default: those of SUMO's class.
@@ -94,6 +94,11 @@ mod tests {
         }
         assert_eq!([kind("tram"), kind("speedy"), kind("t0"), kind("")], [None; 4]);
         assert_eq!(kind_of("taxi@all", false, &types), Some((BodyKind::Van, DVec3::new(5.0, 2.0, 2.0))));
+        // SUMO's class of e-scooters: the word means a motorcycle until a recipe says otherwise.
+        assert_eq!(kind("scooter"), Some(BodyKind::Motorcycle));
+        let scooter = FcdType { kind: BodyKind::EScooter, size_m: None };
+        let told = kind_of("scooter", false, &BTreeMap::from([("scooter".to_owned(), scooter)]));
+        assert_eq!(told.map(|it| it.0), Some(BodyKind::EScooter));
         assert_eq!(kind_of("car", true, &types).map(|it| it.0), Some(BodyKind::Pedestrian));
     }
 }
