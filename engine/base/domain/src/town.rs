@@ -101,8 +101,12 @@ pub enum ObstacleKind {
     Bridge,
     /// A parked car.
     Car,
-    /// A bench, bin, stop, box or anything else that does not move.
+    /// A bin, stop, box or anything else that does not move.
     Static,
+    /// A bench.
+    Bench,
+    /// A market stall.
+    Stall,
 }
 
 impl ObstacleKind {
@@ -119,7 +123,7 @@ impl ObstacleKind {
             Self::GuardRail => SemanticLabel::GuardRail,
             Self::Bridge => SemanticLabel::Bridge,
             Self::Car => SemanticLabel::Car,
-            Self::Static => SemanticLabel::Static,
+            Self::Static | Self::Bench | Self::Stall => SemanticLabel::Static,
         }
     }
 }

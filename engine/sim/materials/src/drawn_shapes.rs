@@ -1,5 +1,6 @@
-//! The shapes that pictures show of boxes: slopes of pitched roofs, round crowns.
+//! The shapes that pictures show of boxes: slopes of pitched roofs, round crowns, benches and stalls.
 
+use crate::furniture::furnish;
 use crate::parts::SceneBox;
 use crate::roof_slopes::cut_to_slopes;
 use crate::round_crowns::round_crowns;
@@ -8,4 +9,5 @@ use crate::round_crowns::round_crowns;
 pub fn cut_to_drawn(boxes: &mut Vec<SceneBox>) {
     cut_to_slopes(boxes);
     round_crowns(boxes);
+    furnish(boxes);
 }

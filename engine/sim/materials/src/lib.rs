@@ -10,6 +10,7 @@ pub mod drawn_shapes;
 pub mod dry_days;
 pub mod facade;
 pub mod far_light;
+mod furniture;
 pub mod grid;
 pub mod ground;
 pub mod ground_polygons;

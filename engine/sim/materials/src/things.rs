@@ -1,7 +1,7 @@
 //! Trunks, cars, lamps and everything else that stands in a street.
 
 use super::lanes::{Block, Shared, WIDE, groups};
-use super::pattern::{NoiseTexture, Noises, band, draw, hash, least, smoothstep, stripes, unit};
+use super::pattern::{NoiseTexture, Noises, band, draw, hash, least, most, smoothstep, stripes, unit};
 use super::surface::{Look, SurfacePoint};
 use super::vector::Vec3;
 use cosfly_domain::ObstacleKind;
@@ -18,6 +18,24 @@ const PAINTS: [Vec3; 8] = [
     Vec3::new(0.05, 0.14, 0.10),
     Vec3::new(0.45, 0.38, 0.28),
 ];
+
+/// Stripes of awnings, linear RGB.
+const CLOTHS: [Vec3; 4] = [
+    Vec3::new(0.42, 0.05, 0.04),
+    Vec3::new(0.04, 0.20, 0.09),
+    Vec3::new(0.05, 0.11, 0.33),
+    Vec3::new(0.50, 0.30, 0.05),
+];
+/// What lies in crates, linear RGB.
+const FRUIT: [Vec3; 5] = [
+    Vec3::new(0.50, 0.09, 0.03),
+    Vec3::new(0.52, 0.25, 0.03),
+    Vec3::new(0.16, 0.30, 0.06),
+    Vec3::new(0.32, 0.22, 0.10),
+    Vec3::new(0.46, 0.40, 0.30),
+];
+/// Half the longer side of the widest crate; awnings are longer, metres.
+const WIDEST_CRATE_M: f32 = 0.78;
 
 /// Light of bulbs, linear RGB: warm, sodium, cold; the first are the most frequent.
 const BULBS: [[f32; 3]; 3] = [[1.0, 0.78, 0.45], [1.0, 0.58, 0.20], [0.86, 0.92, 1.0]];
@@ -105,7 +123,11 @@ impl BoxThing {
             ObstacleKind::Wall | ObstacleKind::Bridge | ObstacleKind::Building => {
                 tint = Vec3::new(0.36, 0.33, 0.29) * (0.8 + 0.4 * draw(seed, 5));
             }
-            ObstacleKind::Static => {
+            ObstacleKind::Stall => {
+                tint = CLOTHS[pick(4, CLOTHS.len())];
+                choice = hash(seed, center.x.to_bits() ^ center.y.to_bits()) as usize % FRUIT.len();
+            }
+            ObstacleKind::Static | ObstacleKind::Bench => {
                 tint = [Vec3::new(0.16, 0.115, 0.075), Vec3::new(0.065, 0.095, 0.07), Vec3::splat(0.20)][pick(6, 3)];
             }
             _ => {}
@@ -158,7 +180,8 @@ impl BoxThing {
                 paint_all!(put, self, shared, blocks, point, at => self.stone(&point, &at, noise));
             }
             ObstacleKind::Pole => paint_all!(put, self, shared, blocks, point, _at => metal(&point, Vec3::splat(0.22))),
-            ObstacleKind::Static => {
+            ObstacleKind::Stall => paint_all!(put, self, shared, blocks, point, at => self.stall(&point, &at, noise)),
+            ObstacleKind::Static | ObstacleKind::Bench => {
                 paint_all!(put, self, shared, blocks, point, at => self.furniture(&point, &at, noise))
             }
         }
@@ -259,6 +282,21 @@ impl BoxThing {
         let grain = noise.grain(u * 20.0, v * 20.0, size * 20.0);
         let joint = stripes(v / 0.4, 0.0, 0.06, point.footprints_m[1] / 0.4);
         Look::matt(self.tint * ((0.66 + 0.35 * stain + 0.3 * grain) * (1.0 - 0.3 * joint)), point.normal)
+    }
+
+    /// Stripes of an awning and of the cloth that hangs from it; crates full of fruit.
+    #[inline(always)]
+    fn stall(&self, point: &SurfacePoint, at: &Place, noise: &NoiseTexture) -> Look {
+        let size = point.footprint_m;
+        if most(self.half.x, self.half.y) > WIDEST_CRATE_M {
+            let along = if self.half.x >= self.half.y { at.local.x } else { at.local.y };
+            let stripe = stripes(along / 0.5, 0.0, 0.5, size / 0.5);
+            let fold = noise.clumps(at.u * 2.5, at.v * 2.5, size * 2.5);
+            return Look::matt(Vec3::splat(0.62).lerp(self.tint, stripe) * (0.86 + 0.2 * fold), point.normal);
+        }
+        let fruit = FRUIT[self.choice];
+        let heap = noise.clumps(at.u * 9.0, at.v * 9.0, size * 9.0);
+        Look::matt(fruit * (0.55 + 0.8 * heap), point.normal)
     }
 
     #[inline(always)]

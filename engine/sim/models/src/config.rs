@@ -40,7 +40,7 @@ pub enum ModelKind {
     TrafficLight,
     /// A traffic sign.
     TrafficSign,
-    /// A bench, bin, stop or box.
+    /// A bench, bin, stop, stall or box.
     Static,
 }
 
@@ -55,7 +55,7 @@ impl ModelKind {
             Self::Pole => kind == ObstacleKind::Pole,
             Self::TrafficLight => kind == ObstacleKind::TrafficLight,
             Self::TrafficSign => kind == ObstacleKind::TrafficSign,
-            Self::Static => kind == ObstacleKind::Static,
+            Self::Static => matches!(kind, ObstacleKind::Static | ObstacleKind::Bench | ObstacleKind::Stall),
         }
     }
 }

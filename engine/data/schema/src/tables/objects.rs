@@ -58,6 +58,8 @@ pub fn kind_name(kind: ObstacleKind) -> &'static str {
         ObstacleKind::Bridge => "bridge",
         ObstacleKind::Car => "car",
         ObstacleKind::Static => "static",
+        ObstacleKind::Bench => "bench",
+        ObstacleKind::Stall => "stall",
     }
 }
 

@@ -172,7 +172,8 @@ fn ridge_yaw_rad(tags: &Tags, longer_yaw_rad: f64, source: Source, doubts: &mut 
     Some(real::wrap_angle_rad(bearing_deg.to_radians()))
 }
 
-fn bearing_deg(text: &str) -> Option<f64> {
+/// A bearing clockwise from north, degrees, of a number or the name of a point of the compass.
+pub fn bearing_deg(text: &str) -> Option<f64> {
     const POINTS: [&str; 16] =
         ["N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE", "S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW"];
     if let Some(index) = POINTS.iter().position(|point| *point == text) {

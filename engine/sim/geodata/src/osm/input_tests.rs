@@ -3,7 +3,7 @@
 use super::pbf::{DenseInfo, DenseNodes, PrimitiveBlock, PrimitiveGroup, StringTable};
 use super::tests::{RING, blob, gzip, osm, raw, read, way, zlib};
 use cosfly_domain::{ObstacleKind, Town, WalkableKind};
-use cosfly_frames::DVec2;
+use cosfly_frames::{DVec2, real};
 use cosfly_town::polygons::contains;
 use prost::Message;
 
@@ -94,6 +94,11 @@ fn of_elements_that_are_there_again_the_highest_version_counts() {
         let is_told = warnings.iter().any(|warning| warning.contains("more than once") && warning.contains("node 20"));
         assert_eq!(is_told, rest.contains(&bare), "{warnings:?}");
     }
+    let bench = lamp("<tag k=\"amenity\" v=\"bench\"/><tag k=\"direction\" v=\"E\"/>");
+    let (town, _) = read(osm(&SQUARE, &(house(8, "5") + &bench)).as_bytes()).unwrap();
+    let bench = town.obstacles.iter().find(|one| one.kind == ObstacleKind::Bench).expect("a bench stands there");
+    let (sin, cos) = real::sin_cos(bench.shape.yaw_rad);
+    assert!((sin - 1.0).abs() < 1e-9 && cos.abs() < 1e-9, "its back, towards its second axis, is in the west");
     let twice = house(8, "5").replace("</way>", "<tag k=\"height\" v=\"9\"/></way>");
     let (town, warnings) = read(osm(&SQUARE, &twice).as_bytes()).unwrap();
     assert_eq!(

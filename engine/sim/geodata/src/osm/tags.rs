@@ -21,6 +21,7 @@ const KEYS: &[&str] = &[
     "cycleway:left",
     "cycleway:right",
     "diameter_crown",
+    "direction",
     "est_height",
     "foot",
     "footway",

@@ -3,6 +3,7 @@
 use super::buildings::MOST_BOXES;
 use super::elements::{CUT_OUT, Elements, Way};
 use super::frame::Frame;
+use super::heights::bearing_deg;
 use super::roads::lines;
 use super::stated::{Base, Doubts, EVERY, Quantity};
 use super::tags::Tags;
@@ -30,6 +31,8 @@ const TOP_ABOVE_BASE: Quantity = Quantity { range: EVERY, noun: ["height above t
 /// Height of a tree above its foot, and diameter of its crown.
 const TREE: Quantity = Quantity::length("trees", &["height"], [1.0, 80.0], USUAL);
 const CROWN: Quantity = Quantity::length("trees", &["diameter_crown"], [0.5, 30.0], USUAL);
+/// Length and depth of a bench.
+const BENCH_M: DVec2 = DVec2::new(1.8, 0.6);
 const USUAL: &str = "the usual one is assumed";
 
 /// Height of a tree and radius of its crown, metres, as far as they are stated.
@@ -66,6 +69,7 @@ fn upright(tags: &Tags) -> Option<(ObstacleKind, f64, f64)> {
     Some(match () {
         () if by_key("highway", &["street_lamp"]) => (ObstacleKind::Lamp, 0.16, 6.0),
         () if by_key("barrier", &["bollard"]) => (ObstacleKind::Pole, 0.2, 1.0),
+        () if by_key("amenity", &["bench"]) => (ObstacleKind::Bench, BENCH_M.y, 0.85),
         () if by_key("barrier", &["block"]) => (ObstacleKind::Static, 0.8, 0.8),
         () if by_key("power", &["tower"]) => (ObstacleKind::Pole, 4.0, 30.0),
         () if by_key("power", &["pole"]) => (ObstacleKind::Pole, 0.3, 9.0),
@@ -74,6 +78,13 @@ fn upright(tags: &Tags) -> Option<(ObstacleKind, f64, f64)> {
         () if by_key("man_made", &["chimney"]) => (ObstacleKind::Static, 2.5, 30.0),
         _ => return None,
     })
+}
+
+/// Yaw of a bench whose tags may state which way people on it look, a bearing clockwise from north. Its back is on the side of its
+/// second axis; x is east, y south.
+fn bench_yaw_rad(tags: &Tags) -> f64 {
+    let bearing_deg = tags.get("direction").and_then(bearing_deg);
+    bearing_deg.map_or(0.0, |bearing_deg| real::wrap_angle_rad(bearing_deg.to_radians()))
 }
 
 /// A kind of thing along a line: box kind, thickness, height, metres.
@@ -124,8 +135,12 @@ pub fn read<'i>(
         } else if let Some((kind, width_m, height_m)) = upright(tags)
             && let Some(span_m) = out.span_m(tags, height_m, format_args!("node {id}"))
         {
+            let (size_m, yaw_rad) = match kind {
+                ObstacleKind::Bench => (BENCH_M, bench_yaw_rad(tags)),
+                _ => (DVec2::splat(width_m), 0.0),
+            };
             let id = out.next();
-            out.add_box(kind, id, at, DVec2::splat(0.5 * width_m), 0.0, span_m);
+            out.add_box(kind, id, at, 0.5 * size_m, yaw_rad, span_m);
         }
     }
     let mut length_m = 0.0;

@@ -33,7 +33,7 @@ const NAMES: &[(&str, ObstacleKind)] = &[
     ("hedge", ObstacleKind::Bush),
     ("bush", ObstacleKind::Bush),
     ("raisedmedian", ObstacleKind::Static),
-    ("bench", ObstacleKind::Static),
+    ("bench", ObstacleKind::Bench),
 ];
 
 /// Words of painted things that some exporters give the type "-1" or none.
@@ -78,6 +78,7 @@ pub(super) fn kind_of(object: &RoadObject) -> ObjectKind {
             name if name.contains("tree") => ObstacleKind::TreeTrunk,
             name if name.contains("pole") || name.contains("post") => ObstacleKind::Pole,
             name if name.starts_with("speed_") || name.contains("sign") => ObstacleKind::TrafficSign,
+            "stall" | "marketstall" => ObstacleKind::Stall,
             _ => ObstacleKind::Static,
         }),
     }
@@ -105,6 +106,8 @@ mod tests {
             ("crosswalk", "simplecrosswalk", ObjectKind::Crosswalk),
             ("roadmark", "crosswalk", ObjectKind::Crosswalk),
             ("roadmark", "arrowleft", ObjectKind::Flat),
+            ("obstacle", "parkbench", ObjectKind::Solid(ObstacleKind::Bench)),
+            ("obstacle", "stall", ObjectKind::Solid(ObstacleKind::Stall)),
             ("somethingnew", "", ObjectKind::Solid(ObstacleKind::Static)),
         ] {
             let object = RoadObject { type_name: type_name.to_owned(), name: name.to_owned(), ..RoadObject::default() };
