@@ -322,19 +322,19 @@ fn largest_rectangle(is_open: &[bool], columns: usize) -> Option<[usize; 4]> {
     let mut best: Option<[usize; 4]> = None;
     let mut open: Vec<(usize, usize)> = Vec::new();
     for (row, cells) in is_open.chunks(columns).enumerate() {
-        for column in 0..=columns {
+        for (column, own) in heights.iter_mut().enumerate() {
             let is_open = cells.get(column).is_some_and(|is_open| *is_open);
-            heights[column] = if is_open { heights[column] + 1 } else { 0 };
+            *own = if is_open { *own + 1 } else { 0 };
             let mut start = column;
-            while let Some((first, height)) = open.pop_if(|(_, height)| *height > heights[column]) {
+            while let Some((first, height)) = open.pop_if(|(_, height)| *height > *own) {
                 start = first;
                 let area = (column - first) * height;
                 if best.is_none_or(|[_, _, width, height]| area > width * height) {
                     best = Some([first, row + 1 - height, column - first, height]);
                 }
             }
-            if heights[column] > 0 && open.last().is_none_or(|(_, height)| *height < heights[column]) {
-                open.push((start, heights[column]));
+            if *own > 0 && open.last().is_none_or(|(_, height)| *height < *own) {
+                open.push((start, *own));
             }
         }
         open.clear();
