@@ -4,6 +4,7 @@
 //! [`mesh`] has whole places: scans with the light that they were taken in.
 
 mod config;
+mod ktx2;
 pub mod mesh;
 mod model;
 mod pictures;

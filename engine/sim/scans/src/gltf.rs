@@ -4,6 +4,8 @@ mod accessors;
 pub mod document;
 mod draco;
 pub mod materials;
+mod meshopt;
+mod streams;
 mod views;
 
 use crate::mesh::{MeshOptions, PartBuilder, town_of};

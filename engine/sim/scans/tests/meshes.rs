@@ -198,9 +198,9 @@ fn packed_and_sparse_corners_and_repeated_meshes_are_read() {
         let size = |one: &cosfly_domain::Obstacle| (2.0 * one.shape.half_extents_m - DVec3::new(8.0, 6.0, 5.0)).abs();
         assert!(town.obstacles.iter().all(|one| size(one).max_element() < 0.02), "{:?}", town.obstacles);
     }
-    let required = r#""extensionsRequired":["EXT_meshopt_compression"],"#;
+    let required = r#""extensionsRequired":["ACME_compression"],"#;
     let refused = read::<GlTf>(&houses(false, required), &options).unwrap_err();
-    assert!(refused.message.contains("EXT_meshopt_compression"), "{refused}");
+    assert!(refused.message.contains("ACME_compression"), "{refused}");
 }
 
 /// The house of [`houses`] with its places in a picture, packed by Google's encoder (DracoPy 2.2, level 7, 14 bits).

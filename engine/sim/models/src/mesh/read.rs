@@ -62,9 +62,42 @@ mod tests {
         assert!(mesh.triangles.iter().any(|it| it.colours != [[255; 3]; 3]));
     }
 
+    /// The example as others export it: packed by gltfpack 1.3 (`-c`; `-cc -ce khr -vpf`), with pictures in WebP and in KTX2.
+    const PACKED: [&[u8]; 2] = [include_bytes!("packed/ext_webp.glb"), include_bytes!("packed/khr_ktx2.glb")];
+
+    #[test]
+    fn packed_files_show_what_the_plain_one_does() {
+        let plain = TexturedMesh::read(TexturedMesh::EXAMPLE, &[], &here()).expect("a mesh");
+        let seen = |mesh: &TexturedMesh, at: usize| {
+            let own = &mesh.triangles[at];
+            let middle = |axis: usize| own.corners_in_world.iter().map(|corner| corner[axis]).sum::<f32>() / 3.0;
+            // Averaged over the whole picture: a place of it may be at the edge of two bricks.
+            let look = mesh.look_at(own, [0.3, 0.3, 0.4], [[8.0, 0.0], [0.0, 8.0]]);
+            ([0, 1, 2].map(middle), look)
+        };
+        for packed in PACKED {
+            let mesh = TexturedMesh::read(packed, &[], &here()).expect("a mesh");
+            assert_eq!((mesh.triangles.len(), mesh.textures.len()), (plain.triangles.len(), 2));
+            assert!(mesh.remarks.is_empty(), "{:?}", mesh.remarks);
+            for at in 0..plain.triangles.len() {
+                let (middle, look) = seen(&plain, at);
+                let is_same = |other: usize| {
+                    let (own, its) = seen(&mesh, other);
+                    (0..3).all(|axis| (own[axis] - middle[axis]).abs() < 0.01)
+                        && (0..4).all(|k| (its[k] - look[k]).abs() < 0.06)
+                };
+                assert!((0..mesh.triangles.len()).any(is_same), "{middle:?} {look:?}");
+            }
+        }
+    }
+
     #[test]
     fn damaged_files_are_refused_and_never_panic() {
-        let example = TexturedMesh::EXAMPLE;
+        PACKED.into_iter().for_each(check_damaged);
+        check_damaged(TexturedMesh::EXAMPLE);
+    }
+
+    fn check_damaged(example: &[u8]) {
         for length in (0..example.len()).step_by(11) {
             let error = TexturedMesh::read(&example[..length], &[], &here()).expect_err("cut");
             assert!(!error.hints.is_empty(), "{length}: {error}");

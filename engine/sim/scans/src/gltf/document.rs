@@ -19,19 +19,29 @@ pub const MAGIC: &[u8] = b"glTF";
 const TEXT_CHUNK: u32 = 0x4E4F_534A;
 const DATA_CHUNK: u32 = 0x004E_4942;
 /// Extensions that are read, or change nothing about shapes and base colours; those of materials are, too.
-const READ: [&str; 11] = [
+const READ: [&str; 15] = [
     "CESIUM_RTC",
     "CESIUM_primitive_outline",
     "EXT_instance_features",
     "EXT_mesh_features",
     "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
     "EXT_structural_metadata",
+    "EXT_texture_webp",
     "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     "KHR_mesh_quantization",
+    "KHR_meshopt_compression",
+    "KHR_texture_basisu",
     "KHR_texture_transform",
     "KHR_xmp_json_ld",
 ];
+
+/// Most bytes of all that packed views and shapes hold, drawn or not: those of any file, those for each byte of a file, and those of no file.
+/// A few bytes may say that they are millions, and many shapes may be one.
+const SMALL_BYTES: u64 = 16 << 20;
+const BYTES_PER_BYTE: u64 = 64;
+const MOST_BYTES: u64 = 1 << 30;
 
 /// A file.
 #[derive(Debug, Default, Deserialize)]
@@ -191,9 +201,14 @@ impl Document {
             return Err(error.hint(IN_A_PLAN));
         }
         let buffers = std::mem::take(&mut document.buffers);
-        let data = buffers.into_iter().enumerate().map(|(index, buffer)| buffer.bytes(index, blob));
+        let data = buffers.into_iter().enumerate().map(|(index, buffer)| {
+            if document.stands_for_packed(index) { Ok(vec![]) } else { buffer.bytes(index, blob) }
+        });
         document.data = data.collect::<Result<_, _>>()?;
-        document.unpack()?;
+        let bytes = document.data.iter().map(|data| data.len() as u64).sum::<u64>();
+        let mut left = MOST_BYTES.min(SMALL_BYTES + BYTES_PER_BYTE * bytes);
+        document.unpack_views(&mut left)?;
+        document.unpack(left)?;
         Ok(document)
     }
 
@@ -253,20 +268,20 @@ impl Document {
     /// Pictures that only an extension knows.
     pub fn picture_of(&self, texture: usize) -> Result<(usize, [TextureWrap; 2]), MapError> {
         let own = self.textures.get(texture);
-        let Some((picture, own)) = own.and_then(|own| Some((own.source?, own))) else {
+        let Some((picture, own)) = own.and_then(|own| Some((own.picture()?, own))) else {
             let by = own.and_then(|own| own.extensions.keys().next());
             let by = by.map_or_else(
                 || "names no picture".to_owned(),
                 |by| format!("has its picture by `{by}` only, which is not read"),
             );
-            let hint = "export the mesh with PNG or JPEG pictures: `gltf-transform ktxdecompress` makes PNG of KTX2, `gltf-transform png` of WebP";
-            return Err(MapError::new(format!("texture {texture} {by}")).hint(hint));
+            let error = MapError::new(format!("texture {texture} {by}"));
+            return Err(error.hint("export the mesh with PNG, JPEG, WebP or KTX2 pictures"));
         };
         let sampler = own.sampler.and_then(|sampler| self.samplers.get(sampler));
         Ok((picture, sampler.map_or([TextureWrap::Repeat; 2], Sampler::wraps)))
     }
 
-    /// Bytes of a picture, PNG or JPEG.
+    /// Bytes of a picture.
     ///
     /// # Errors
     /// There is none of that number, the picture lies in another file, or its bytes are missing.
@@ -314,8 +329,7 @@ pub(crate) fn check_required<'a>(names: impl IntoIterator<Item = &'a str>) -> Re
     let is_read = |name: &&str| name.starts_with("KHR_materials_") || READ.contains(name);
     let Some(name) = names.into_iter().find(|name| !is_read(name)) else { return Ok(()) };
     let hint = match name {
-        "KHR_texture_basisu" => "`gltf-transform ktxdecompress FILE plain.glb` makes PNG of KTX2 pictures",
-        "EXT_texture_webp" => "`gltf-transform png FILE plain.glb --formats webp` makes PNG of WebP pictures",
+        _ if name.contains("_texture_") => "export the file with PNG or JPEG pictures",
         _ if name.contains("compression") => {
             "`gltf-transform cp FILE plain.glb` unpacks shapes, or export the file without compression"
         }

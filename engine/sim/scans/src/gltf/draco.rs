@@ -6,11 +6,6 @@ use cosfly_diagnose::contained;
 use cosfly_town::MapError;
 use draco_core::{DecodeLimits, DecoderBuffer, Mesh, MeshDecoder};
 
-/// Most bytes of all that packed shapes hold, drawn or not: those of any file, those for each byte of a file, and those of no file.
-/// A few bytes may say that they are millions, and many shapes may be one.
-const SMALL_BYTES: u64 = 16 << 20;
-const BYTES_PER_BYTE: u64 = 64;
-const MOST_BYTES: u64 = 1 << 30;
 /// Bytes of a triangle's corners, and those that each layer of seams takes for it meanwhile.
 const CORNER_BYTES: u64 = 12;
 const LAYER_BYTES: u64 = 24;
@@ -21,11 +16,9 @@ const INDEX: u32 = 5125;
 const HINT: &str = "`gltf-transform cp FILE plain.glb` unpacks shapes, or export the file without compression";
 
 impl Document {
-    /// Unpacks all packed shapes.
-    pub(super) fn unpack(&mut self) -> Result<(), MapError> {
+    /// Unpacks all packed shapes, into no more bytes than are left.
+    pub(super) fn unpack(&mut self, mut left: u64) -> Result<(), MapError> {
         let mut meshes = std::mem::take(&mut self.meshes);
-        let bytes = self.data.iter().map(|data| data.len() as u64).sum::<u64>();
-        let mut left = MOST_BYTES.min(SMALL_BYTES + BYTES_PER_BYTE * bytes);
         for shape in meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {
             let Some(packed) = shape.extensions.draco.take() else { continue };
             let view = self.buffer_views.get(packed.buffer_view).and_then(|view| self.viewed(view));

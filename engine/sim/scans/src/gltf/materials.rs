@@ -2,7 +2,7 @@
 
 use cosfly_frames::real;
 use serde::Deserialize;
-use serde::de::IgnoredAny;
+use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// Looks of a shape.
@@ -88,7 +88,19 @@ impl Default for TextureTransform {
 pub(super) struct Texture {
     pub(super) source: Option<usize>,
     pub(super) sampler: Option<usize>,
-    pub(super) extensions: BTreeMap<String, IgnoredAny>,
+    pub(super) extensions: BTreeMap<String, Value>,
+}
+
+/// Extensions by which a texture names a picture that is neither PNG nor JPEG.
+pub(crate) const PICTURES: [&str; 2] = ["EXT_texture_webp", "KHR_texture_basisu"];
+
+impl Texture {
+    /// Number of its picture: the plain one where it has two.
+    pub(super) fn picture(&self) -> Option<usize> {
+        let packed =
+            || PICTURES.iter().find_map(|name| self.extensions.get(*name)?["source"].as_u64()?.try_into().ok());
+        self.source.or_else(packed)
+    }
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -44,6 +44,27 @@ pub(super) struct View {
     pub(super) byte_offset: usize,
     pub(super) byte_length: usize,
     pub(super) byte_stride: Option<usize>,
+    pub(super) extensions: ViewExtensions,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct ViewExtensions {
+    #[serde(rename = "KHR_meshopt_compression", alias = "EXT_meshopt_compression")]
+    pub(super) stream: Option<Stream>,
+}
+
+/// Bytes of a view as meshoptimizer packed them.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default, rename_all = "camelCase")]
+pub(super) struct Stream {
+    pub(super) buffer: usize,
+    pub(super) byte_offset: usize,
+    pub(super) byte_length: usize,
+    pub(super) byte_stride: usize,
+    pub(super) count: usize,
+    pub(super) mode: String,
+    pub(super) filter: String,
 }
 
 /// Accessors of the places of a mesh that stands in many.

@@ -309,12 +309,18 @@ mod tests {
         check_refused(&one, b"\x1f\x8b\x08\x00", "gzip");
         check_refused(&one, b"b3dm\x01\0\0\0\x1c\0\0\0\x08\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", "`0.glb`: its 28 bytes");
         check_refused(&one, b"glTF\x01\0\0\0", "glTF 1");
-        for (name, hint) in [("EXT_meshopt_compression", "cp"), ("KHR_texture_basisu", "ktxdecompress")] {
+        for (name, hint) in [("ACME_compression", "cp"), ("EXT_texture_avif", "PNG")] {
             let error = joined(&one, &text(&format!(",\"extensionsRequired\":[\"{name}\"]"))).expect_err(name);
             assert!(error.message.contains(name) && error.hints[0].contains(hint), "{error:?}");
         }
         check_refused(&one, &text(",\"nodes\":[{\"mesh\":4}]"), "number 4 of its 0 `meshes`");
         check_refused(&one, &text(",\"bufferViews\":[{\"byteLength\":9}]"), "beyond its end");
+        for (stream, words) in
+            [("\"count\":2,\"byteStride\":4,\"byteLength\":9", "beyond its end"), ("\"count\":-1", "no size")]
+        {
+            let view = format!(",\"bufferViews\":[{{\"extensions\":{{\"EXT_meshopt_compression\":{{{stream}}}}}}}]");
+            check_refused(&one, &text(&view), words);
+        }
         check_refused(&one, &text(",\"buffers\":[{\"uri\":\"../../secret\"}]"), "leads out");
     }
 

@@ -1,6 +1,7 @@
 //! [`Joined`]: one glTF file that is made of many.
 
 use crate::gltf::document::{MAGIC, check_required, chunks, embedded};
+use crate::gltf::materials::PICTURES;
 use cosfly_frames::DVec3;
 use cosfly_town::MapError;
 use glam::DMat4;
@@ -23,16 +24,21 @@ const OF_SAMPLER: [&str; 4] = ["magFilter", "minFilter", "wrapS", "wrapT"];
 const GLOSSINESS: &str = "KHR_materials_pbrSpecularGlossiness";
 const TRANSFORM: &str = "KHR_texture_transform";
 const DRACO: &str = "KHR_draco_mesh_compression";
+const MESHOPT: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
+const OF_STREAM: [&str; 5] = ["byteLength", "byteStride", "count", "mode", "filter"];
 
 /// A file as it grows.
 #[derive(Default)]
 pub(super) struct Joined {
     lists: [Vec<Value>; LISTS.len()],
     data: Vec<u8>,
+    /// Bytes that all packed views hold; each is a part of a second buffer, which is not in the file.
+    unpacked: u64,
     roots: Vec<usize>,
     text_bytes: usize,
-    /// Extensions that some of its files use.
+    /// Extensions that some of its files use, and those without which it cannot be read.
     used: BTreeSet<&'static str>,
+    required: BTreeSet<&'static str>,
 }
 
 /// One file that is added: its text, and where its numbers begin in the whole.
@@ -92,14 +98,28 @@ impl Joined {
             self.lists[2].push(part.accessor(accessor)?);
         }
         for view in list(&document, "bufferViews") {
-            self.lists[3].push(part.view(view)?);
+            let packed = MESHOPT.into_iter().find(|name| view["extensions"][name].is_object());
+            self.required.extend(packed);
+            let own = match packed {
+                Some(name) => part.packed_view(view, name, &mut self.unpacked)?,
+                None => part.view(view)?,
+            };
+            self.lists[3].push(own);
         }
         for material in list(&document, "materials") {
             self.lists[4].push(part.material(material)?);
         }
         for texture in list(&document, "textures") {
-            let mut own = json!({ "source": part.number(&texture["source"], 6)? });
+            let mut own = json!({});
             put(&mut own, "sampler", part.number(&texture["sampler"], 7)?);
+            let plain = part.number(&texture["source"], 6)?;
+            put(&mut own, "source", plain);
+            let packed = PICTURES.into_iter().find(|name| texture["extensions"][name].is_object());
+            if let Some(name) = packed.filter(|_| plain.is_none()) {
+                let source = part.number(&texture["extensions"][name]["source"], 6)?;
+                own["extensions"] = json!({ name: { "source": source } });
+                self.required.insert(name);
+            }
             self.lists[5].push(own);
         }
         let mut views = vec![];
@@ -144,14 +164,15 @@ impl Joined {
 
     /// The file.
     pub fn into_glb(mut self) -> Vec<u8> {
-        let used: Vec<&str> =
-            ["EXT_mesh_gpu_instancing", "KHR_mesh_quantization"].into_iter().chain(self.used.iter().copied()).collect();
-        let packed = self.used.contains(DRACO).then_some(DRACO);
-        let required: Vec<&str> = ["KHR_mesh_quantization"].into_iter().chain(packed).collect();
+        self.required.insert("KHR_mesh_quantization");
+        self.required.extend(self.used.contains(DRACO).then_some(DRACO));
+        self.used.insert("EXT_mesh_gpu_instancing");
+        self.used.extend(&self.required);
+        let mut buffers = vec![json!({ "byteLength": self.data.len() })];
+        buffers.extend((self.unpacked > 0).then(|| json!({ "byteLength": self.unpacked })));
         let mut document = json!({
             "asset": { "version": "2.0", "generator": "cosfly" }, "scene": 0, "scenes": [{ "nodes": self.roots }],
-            "extensionsUsed": used,
-            "extensionsRequired": required, "buffers": [{ "byteLength": self.data.len() }],
+            "extensionsUsed": self.used, "extensionsRequired": self.required, "buffers": buffers,
         });
         for (name, list) in LISTS.into_iter().zip(std::mem::take(&mut self.lists)).filter(|(_, list)| !list.is_empty())
         {
@@ -267,6 +288,25 @@ impl Part<'_> {
             }
             own["sparse"] = sparse;
         }
+        Ok(own)
+    }
+
+    /// A packed view: its stream is a view of the data, itself the next part of the second buffer.
+    fn packed_view(&self, view: &Value, by: &str, unpacked: &mut u64) -> Result<Value, MapError> {
+        let stream = &view["extensions"][by];
+        let size = stream["count"].as_u64().and_then(|count| count.checked_mul(stream["byteStride"].as_u64()?));
+        let end = size.and_then(|size| unpacked.checked_add(size.checked_next_multiple_of(8)?));
+        let (Some(size), Some(end)) = (size, end) else {
+            return Err(MapError::new("a packed view has no size"));
+        };
+        let mut own = kept(view, &["byteStride"]);
+        own["buffer"] = 1.into();
+        own["byteOffset"] = std::mem::replace(unpacked, end).into();
+        own["byteLength"] = size.into();
+        let mut stream_of_whole = kept(stream, &OF_STREAM);
+        let place = self.view(stream)?;
+        ["buffer", "byteOffset"].into_iter().for_each(|name| stream_of_whole[name] = place[name].clone());
+        own["extensions"] = json!({ by: stream_of_whole });
         Ok(own)
     }
 
