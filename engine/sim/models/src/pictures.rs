@@ -210,7 +210,7 @@ mod tests {
             (changed(UASTC, 12, 145), "format 145"),
             (changed(UASTC, 48, u32::MAX), "neither UASTC nor ETC1S"),
             (changed(ETC1S, 80, u32::MAX), "cut off"),
-            (changed(ETC1S, 200, u32::MAX), "damaged"),
+            (changed(ETC1S, 204, u32::MAX), "damaged"),
             (changed(ETC1S, 40, u32::MAX), "damaged"),
             (plain_ktx2(43, 3), "bytes of pixels for 168"),
         ] {

@@ -203,6 +203,36 @@ fn packed_and_sparse_corners_and_repeated_meshes_are_read() {
     assert!(refused.message.contains("ACME_compression"), "{refused}");
 }
 
+#[test]
+fn streams_that_say_more_than_a_file_of_their_size_holds_are_refused() {
+    // A thousand of equal elements are a few bytes: the widths of a block's differences, and one element.
+    let packed = [&[0xa1, 0xaa][..], &[0xaa; 3], &[0; 24]].concat();
+    let times = |views: usize, count: usize, length: usize| {
+        let view = format!(
+            r#"{{"buffer":1,"byteStride":4,"extensions":{{"EXT_meshopt_compression":
+            {{"buffer":0,"byteLength":{length},"byteStride":4,"count":{count},"mode":"ATTRIBUTES"}}}}}}"#
+        );
+        let json = format!(
+            r#"{{"asset":{{"version":"2.0"}},"extensionsRequired":["EXT_meshopt_compression"],"bufferViews":[{}],
+            "buffers":[{{"byteLength":{}}},{{"byteLength":1099511627776}}]}}"#,
+            vec![view; views].join(","),
+            packed.len()
+        );
+        Document::read(&glb_of(&json, &packed)).map(|_| ())
+    };
+    times(1, 1000, packed.len()).expect("a file");
+    for (views, count, length, words) in [
+        (1, 1001, packed.len() - 1, "its stream or its filter"),
+        (1, 1 << 40, packed.len(), "more than a file of this size"),
+        (1, usize::MAX, packed.len(), "more than a file of this size"),
+        (6000, 1000, packed.len(), "more than a file of this size"),
+        (1, 1000, packed.len() + 4, "are not in the file"),
+    ] {
+        let error = times(views, count, length).unwrap_err();
+        assert!(error.message.contains(words) && !error.hints.is_empty(), "{error:?}");
+    }
+}
+
 /// The house of [`houses`] with its places in a picture, packed by Google's encoder (DracoPy 2.2, level 7, 14 bits).
 const PACKED_HOUSE: &str = "RFJBQ08CAgEBAAAACAwCCwAAA19LFQEBEP8CNUH/AjVBAwAAAAEAAP8AAAECAgQBAAEBAwkCAQEAAQAJAwACAgEBAQEDzwEBLAEE/4sBBAMBBP+PAQIBAgEECQC3suYSHzutjQAAAAD/AAAAAAAAAAAAgD8AAIA/AAAAAAAAgD8AAIA/AACAPwAAgD8AAIA/AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAACAPwEBAQAPAwEQLwEwAwAklwAAABAABgABMAAAAAjAAAAAIAALgBAA/l8BEAAAACAAAgAAAAD/PwAAAAAAAAAAAAAAAAAAAAAAQQ4=";
 

@@ -47,6 +47,7 @@ mod tests {
     use super::super::config::MeshConfig;
     use super::*;
     use cosfly_frames::DVec3;
+    use cosfly_scans::tiles::{TilesChoice, join};
 
     fn here() -> MeshPlace {
         MeshConfig::new("scan.glb").place(DVec3::ZERO).expect("a place")
@@ -72,7 +73,7 @@ mod tests {
             let own = &mesh.triangles[at];
             let middle = |axis: usize| own.corners_in_world.iter().map(|corner| corner[axis]).sum::<f32>() / 3.0;
             // Averaged over the whole picture: a place of it may be at the edge of two bricks.
-            let look = mesh.look_at(own, [0.3, 0.3, 0.4], [[8.0, 0.0], [0.0, 8.0]]);
+            let look = mesh.look_at(own, [1.0 / 3.0; 3], [[8.0, 0.0], [0.0, 8.0]]);
             ([0, 1, 2].map(middle), look)
         };
         for packed in PACKED {
@@ -89,6 +90,24 @@ mod tests {
                 assert!((0..mesh.triangles.len()).any(is_same), "{middle:?} {look:?}");
             }
         }
+    }
+
+    #[test]
+    fn packed_tiles_that_are_joined_stay_packed_and_are_read() {
+        let tileset =
+            r#"{"asset":{"version":"1.1"},"root":{"geometricError":0,"contents":[{"uri":"0.glb"},{"uri":"1.glb"}]}}"#;
+        let mut open = |path: &str| {
+            Ok(match path {
+                "0.glb" => PACKED[0],
+                "1.glb" => PACKED[1],
+                _ => tileset.as_bytes(),
+            }
+            .to_vec())
+        };
+        let joined = join("tileset.json", &TilesChoice::default(), &mut open).expect("a file");
+        assert!(joined.glb.len() < 2 * (PACKED[0].len() + PACKED[1].len()), "{}", joined.glb.len());
+        let mesh = TexturedMesh::read(&joined.glb, &[], &here()).expect("a mesh");
+        assert_eq!((mesh.triangles.len(), mesh.textures.len(), mesh.left_out), (104, 4, 0));
     }
 
     #[test]
