@@ -1,6 +1,6 @@
 //! Pictures of KTX 2.0: plain bytes, UASTC (plain or packed by Zstandard) and ETC1S.
 
-use crate::pictures::{Picture, check_size};
+use crate::picture::{Picture, check_size};
 use basisu::basislz::etc1s::Etc1sTranscoder;
 use basisu::uastc::unpack::unpack_uastc;
 

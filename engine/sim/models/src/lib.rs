@@ -7,6 +7,7 @@ mod config;
 mod ktx2;
 pub mod mesh;
 mod model;
+mod picture;
 mod pictures;
 mod place;
 mod texture;

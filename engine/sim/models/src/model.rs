@@ -1,5 +1,6 @@
 //! [`Model`]: triangles of a glTF file with colours and textures, in the frame of a thing.
 
+use crate::picture::MOST_PIXELS;
 use crate::pictures;
 use crate::texture::Texture;
 use cosfly_frames::DVec3;
@@ -87,7 +88,7 @@ struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     fn new(document: &'a Document) -> Self {
-        let left = [MOST_ELEMENTS, pictures::MOST_PIXELS];
+        let left = [MOST_ELEMENTS, MOST_PIXELS];
         Self { document, left, pictures: BTreeMap::new(), triangles: vec![], textures: vec![] }
     }
 
@@ -103,7 +104,7 @@ impl<'a> Reader<'a> {
                 return Ok(());
             }
             let error = MapError::new("a mesh of the model cannot be read");
-            return Err(error.hint("export it without compression (Draco, meshopt) and sparse data, as one whole file"));
+            return Err(error.hint("export it again without sparse data, as one whole file"));
         };
         if self.triangles.len() + corners.len() > MOST_TRIANGLES {
             let error = MapError::new(format!("the model has more than {MOST_TRIANGLES} triangles"));

@@ -1,6 +1,7 @@
 //! Pictures of glTF files: PNG, JPEG, WebP or KTX 2.0, as rows of red, green and blue.
 
 use crate::ktx2;
+use crate::picture::{LARGEST_SIDE, Picture, check_size};
 use cosfly_diagnose::contained;
 use cosfly_town::MapError;
 use image_webp::WebPDecoder;
@@ -8,35 +9,6 @@ use std::io::Cursor;
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
-
-/// Largest width and height, pixels.
-const LARGEST_SIDE: usize = 8192;
-
-/// Most pixels of all pictures of a model.
-pub const MOST_PIXELS: usize = LARGEST_SIDE * LARGEST_SIDE;
-
-/// A picture: width, height, and sRGB bytes.
-#[derive(Clone)]
-pub struct Picture {
-    /// Pixels in a row.
-    pub width: usize,
-    /// Rows.
-    pub height: usize,
-    /// Red, green, blue of each pixel.
-    pub rgb: Vec<[u8; 3]>,
-    /// Opacity of each pixel; empty where all are opaque.
-    pub alpha: Vec<u8>,
-}
-
-impl Picture {
-    /// A picture of three or four bytes for each pixel, row by row.
-    pub(crate) fn of_samples(samples: &[u8], width: usize, channels: usize) -> Self {
-        let pixels = samples.chunks_exact(channels);
-        let alpha = if channels == 4 { pixels.clone().map(|own| own[3]).collect() } else { vec![] };
-        let rgb: Vec<[u8; 3]> = pixels.map(|own| [own[0], own[1], own[2]]).collect();
-        Self { width, height: rgb.len() / width, rgb, alpha }
-    }
-}
 
 /// Reads a picture, and takes its pixels from those that are left.
 ///
@@ -72,18 +44,6 @@ pub fn read_named(bytes: &[u8], name: &str, left: &mut usize) -> Result<Picture,
 /// Picture that a library reads, which may panic on damaged files.
 fn by_library(read: impl FnOnce() -> Result<Picture, String>) -> Result<Picture, String> {
     contained(read).unwrap_or_else(|| Err("it holds what no encoder writes".to_owned()))
-}
-
-/// Checks the size that a header says, before a pixel is decoded.
-pub(crate) fn check_size(width: usize, height: usize, left: usize) -> Result<(), String> {
-    let allowed = 1..=LARGEST_SIDE;
-    if !(allowed.contains(&width) && allowed.contains(&height)) {
-        return Err(format!("it has {width} x {height} pixels"));
-    }
-    if width * height > left {
-        return Err(format!("it has {width} x {height} pixels; those read before leave {left} of what all may have"));
-    }
-    Ok(())
 }
 
 fn read_png(bytes: &[u8], left: usize) -> Result<Picture, String> {
@@ -136,6 +96,7 @@ fn read_webp(bytes: &[u8], left: usize) -> Result<Picture, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::picture::MOST_PIXELS;
 
     #[test]
     fn pixels_are_charged_by_the_header_before_they_are_decoded() {

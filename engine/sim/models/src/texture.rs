@@ -1,6 +1,6 @@
 //! [`Texture`]: a picture in linear light with smaller copies, so that far models do not flicker.
 
-use crate::pictures::Picture;
+use crate::picture::Picture;
 use cosfly_frames::real;
 
 /// Largest side that is kept, texels; larger pictures are halved.

@@ -3,7 +3,8 @@
 use super::config::MeshPlace;
 use super::texture::MeshTexture;
 use super::textured::{MeshMaterial, MeshTriangle, TexturedMesh};
-use crate::pictures::{self, Picture};
+use crate::picture::{MOST_PIXELS as OF_MODEL, Picture};
+use crate::pictures;
 use cosfly_frames::DVec3;
 use cosfly_scans::gltf::materials::TextureWrap;
 use cosfly_town::MapError;
@@ -13,7 +14,7 @@ const MOST_TRIANGLES: usize = 10_000_000;
 /// Most corners and indices that are read, in triangles or not.
 const MOST_ELEMENTS: usize = 100_000_000;
 /// Most pixels of all pictures of a mesh.
-const MOST_PIXELS: usize = 4 * pictures::MOST_PIXELS;
+const MOST_PIXELS: usize = 4 * OF_MODEL;
 /// Farthest coordinate in the world, metres.
 const FARTHEST_M: f64 = 20_000.0;
 

@@ -57,7 +57,7 @@ impl Reader<'_> {
                 return Ok(());
             }
             let error = MapError::new("a surface of the mesh cannot be read");
-            return Err(error.hint("export it without compression (Draco, meshopt), as one whole file"));
+            return Err(error.hint("export it again, as one whole file"));
         };
         let material = self.material(shape)?;
         let of_file = shape.material.and_then(|number| document.material(number));

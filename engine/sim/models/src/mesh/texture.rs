@@ -1,7 +1,7 @@
 //! [`MeshTexture`]: a picture of a scan at its full size with smaller copies, four bytes a texel.
 
 use super::used_texels::UsedTexels;
-use crate::pictures::Picture;
+use crate::picture::Picture;
 use cosfly_frames::real;
 use cosfly_scans::gltf::materials::TextureWrap;
 use std::sync::OnceLock;
