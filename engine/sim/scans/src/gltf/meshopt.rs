@@ -15,8 +15,12 @@ const INDICES: u8 = 0xd1;
 pub(super) fn unpacked(mode: &str, filter: &str, packed: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
     let is_index = stride == 2 || stride == 4;
     let mut plain = match (mode, filter) {
-        ("ATTRIBUTES", _) if stride % 4 == 0 && (4..=256).contains(&stride) => attributes(packed, count, stride)?,
-        ("TRIANGLES", "NONE" | "") if is_index && count % 3 == 0 => indices(&triangles(packed, count / 3)?, stride),
+        ("ATTRIBUTES", _) if stride.is_multiple_of(4) && (4..=256).contains(&stride) => {
+            attributes(packed, count, stride)?
+        }
+        ("TRIANGLES", "NONE" | "") if is_index && count.is_multiple_of(3) => {
+            indices(&triangles(packed, count / 3)?, stride)
+        }
         ("INDICES", "NONE" | "") if is_index => indices(&sequence(packed, count)?, stride),
         _ => return None,
     };
