@@ -98,32 +98,60 @@ impl Joined {
             self.lists[2].push(part.accessor(accessor)?);
         }
         for view in list(&document, "bufferViews") {
-            let packed = MESHOPT.into_iter().find(|name| view["extensions"][name].is_object());
-            self.required.extend(packed);
-            let own = match packed {
-                Some(name) => part.packed_view(view, name, &mut self.unpacked)?,
-                None => part.view(view)?,
-            };
+            let own = self.view(&part, view)?;
             self.lists[3].push(own);
         }
         for material in list(&document, "materials") {
             self.lists[4].push(part.material(material)?);
         }
         for texture in list(&document, "textures") {
-            let mut own = json!({});
-            put(&mut own, "sampler", part.number(&texture["sampler"], 7)?);
-            let plain = part.number(&texture["source"], 6)?;
-            put(&mut own, "source", plain);
-            let packed = PICTURES.into_iter().find(|name| texture["extensions"][name].is_object());
-            if let Some(name) = packed.filter(|_| plain.is_none()) {
-                let source = part.number(&texture["extensions"][name]["source"], 6)?;
-                own["extensions"] = json!({ name: { "source": source } });
-                self.required.insert(name);
-            }
+            let own = self.texture(&part, texture)?;
             self.lists[5].push(own);
         }
+        self.images(&part, read)?;
+        self.lists[7].extend(list(&document, "samplers").iter().map(|sampler| kept(sampler, &OF_SAMPLER)));
+        let used = list(&document, "extensionsUsed").iter().filter_map(Value::as_str);
+        self.used
+            .extend([GLOSSINESS, TRANSFORM, DRACO].into_iter().filter(|name| used.clone().any(|own| own == *name)));
+        let roots = part.roots()?;
+        let matrix = place(center.unwrap_or_default());
+        if !matrix.is_finite() {
+            return Err(MapError::new("its place is no number"));
+        }
+        self.roots.push(self.lists[0].len());
+        self.lists[0].push(json!({ "matrix": matrix.to_cols_array(), "children": roots }));
+        Ok(())
+    }
+
+    /// A view, packed or not.
+    fn view(&mut self, part: &Part, view: &Value) -> Result<Value, MapError> {
+        let packed = MESHOPT.into_iter().find(|name| view["extensions"][name].is_object());
+        self.required.extend(packed);
+        match packed {
+            Some(name) => part.packed_view(view, name, &mut self.unpacked),
+            None => part.view(view),
+        }
+    }
+
+    /// A texture with its picture: the plain one where it has two.
+    fn texture(&mut self, part: &Part, texture: &Value) -> Result<Value, MapError> {
+        let mut own = json!({});
+        put(&mut own, "sampler", part.number(&texture["sampler"], 7)?);
+        let plain = part.number(&texture["source"], 6)?;
+        put(&mut own, "source", plain);
+        let packed = PICTURES.into_iter().find(|name| texture["extensions"][name].is_object());
+        if let Some(name) = packed.filter(|_| plain.is_none()) {
+            let source = part.number(&texture["extensions"][name]["source"], 6)?;
+            own["extensions"] = json!({ name: { "source": source } });
+            self.required.insert(name);
+        }
+        Ok(own)
+    }
+
+    /// Adds the pictures of a file; those beside it become views.
+    fn images(&mut self, part: &Part, read: &mut dyn FnMut(&str) -> Result<Vec<u8>, MapError>) -> Result<(), MapError> {
         let mut views = vec![];
-        for image in list(&document, "images") {
+        for image in list(part.document, "images") {
             let image = match image["uri"].as_str() {
                 Some(uri) => {
                     let bytes = opened(uri, read)?;
@@ -136,17 +164,6 @@ impl Joined {
             self.lists[6].push(image);
         }
         self.lists[3].extend(views);
-        self.lists[7].extend(list(&document, "samplers").iter().map(|sampler| kept(sampler, &OF_SAMPLER)));
-        let used = list(&document, "extensionsUsed").iter().filter_map(Value::as_str);
-        self.used
-            .extend([GLOSSINESS, TRANSFORM, DRACO].into_iter().filter(|name| used.clone().any(|own| own == *name)));
-        let roots = part.roots()?;
-        let matrix = place(center.unwrap_or_default());
-        if !matrix.is_finite() {
-            return Err(MapError::new("its place is no number"));
-        }
-        self.roots.push(self.lists[0].len());
-        self.lists[0].push(json!({ "matrix": matrix.to_cols_array(), "children": roots }));
         Ok(())
     }
 
