@@ -76,7 +76,7 @@ impl StageKind for Caption {
             canonical[TEACHER] = parameters::without(parameters::canonical(&teacher), TeacherConfig::NOT_IN_KEY);
         }
         let properties = StageProperties {
-            version: 14,
+            version: 15,
             parameters: canonical,
             inputs,
             items: ItemRule::PerInput("trajectories"),

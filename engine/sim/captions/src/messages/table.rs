@@ -44,7 +44,7 @@ impl Messages {
     /// These texts of somebody who runs: words of walking become those of running.
     pub fn of_runner(&self) -> Self {
         let pairs: Vec<(&str, &str)> = self.all("running-words").iter().filter_map(|it| it.split_once(" > ")).collect();
-        let run = |text: &String| pairs.iter().fold(text.clone(), |text, (from, to)| with_word(&text, from, to));
+        let run = |text: &String| with_words(text, &pairs);
         let wordings = self.wordings.iter().map(|(id, all)| (id.clone(), all.iter().map(run).collect()));
         Self { wordings: wordings.collect() }
     }
@@ -61,17 +61,27 @@ impl Messages {
     }
 }
 
-/// A text with one word for another, where it is no part of a longer word.
-fn with_word(text: &str, from: &str, to: &str) -> String {
+/// A text with other words for some of its own, where they are no part of a longer word. At each place the first pair that fits counts; what it puts there
+/// is not changed again.
+fn with_words(text: &str, pairs: &[(&str, &str)]) -> String {
     let is_letter = |it: Option<char>| it.is_some_and(|it| it.is_ascii_alphabetic());
-    let (mut out, mut done) = (String::with_capacity(text.len()), 0);
-    for (at, _) in text.match_indices(from) {
-        let [before, behind] = [text[..at].chars().next_back(), text[at + from.len()..].chars().next()];
-        if !is_letter(before) && !is_letter(behind) {
-            out += &text[done..at];
-            out += to;
-            done = at + from.len();
-        }
+    let (mut out, mut rest) = (String::with_capacity(text.len()), text);
+    while let Some(next) = rest.chars().next() {
+        let before = text[..text.len() - rest.len()].chars().next_back();
+        let fits = |from: &str| {
+            rest.strip_prefix(from).filter(|behind| !is_letter(before) && !is_letter(behind.chars().next()))
+        };
+        let found = pairs.iter().find_map(|&(from, to)| fits(from).map(|behind| (to, behind)));
+        rest = match found {
+            Some((to, behind)) => {
+                out += to;
+                behind
+            }
+            None => {
+                out.push(next);
+                &rest[next.len_utf8()..]
+            }
+        };
     }
-    out + &text[done..]
+    out
 }

@@ -1,6 +1,6 @@
 //! Laws of the tables: all languages have the same messages and slots, each message is used, and a new table speaks.
 
-use super::{Messages, Speaker, messages};
+use super::{Messages, Speaker, messages, messages_of};
 use crate::caption::tests::flights;
 use crate::description::description;
 use crate::instruction::instruction;
@@ -106,4 +106,24 @@ fn a_toy_language_costs_one_table() {
 /// ` {d} {p}`.
 fn slots_in_order(text: &str) -> String {
     text.split('{').skip(1).filter_map(|it| it.split_once('}')).map(|(name, _)| format!(" {{{name}}}")).collect()
+}
+
+#[test]
+fn words_of_running_stand_once_and_whole() {
+    let said = |text: &str, language| {
+        let pairs = "running-words =\n".to_owned()
+            + &messages(language).all("running-words").iter().map(|it| format!("    {it}\n")).collect::<String>();
+        Messages::parse(&format!("{pairs}said = {text}\n")).of_runner().text("said").to_owned()
+    };
+    for (language, walks, runs) in [
+        (Language::Zh, "行走速度约2米/秒", "跑步速度约2米/秒"),
+        (Language::Zh, "行走时步速约2米/秒", "跑步时跑速约2米/秒"),
+        (Language::Zh, "走斑马线过马路", "从斑马线跑过马路"),
+        (Language::En, "Walking on, the walker walks", "Running on, the walker runs"),
+    ] {
+        assert_eq!(said(walks, language), runs);
+    }
+    for (id, wordings) in Language::ALL.iter().flat_map(|it| messages_of(*it, true).iter()) {
+        assert!(!wordings.iter().any(|it| it.contains("跑跑")), "`{id}`: {wordings:?}");
+    }
 }
