@@ -31,10 +31,11 @@ const SHORT_M: f64 = 1.0;
 const STEP_M: f64 = 0.02;
 /// A way is straight where all of it goes within this angle of the whole, degrees.
 const STRAIGHT_DEG: f64 = 30.0;
-/// Slower is standing, m/s; shorter is no stop, seconds; a shorter way is no walk, metres.
+/// Slower is standing, m/s; shorter is no stop, seconds; a way that is shorter and slower is no walk, metres and m/s.
 const STANDING_MPS: f64 = 0.05;
 const STOP_S: f64 = 1.0;
 const WALK_M: f64 = 1.0;
+const WALK_MPS: f64 = 0.5;
 
 /// Facts of a flight; none where the target is unknown in some frames.
 pub fn facts_of(episode: &ExaminedEpisode) -> Option<Facts> {
@@ -51,7 +52,8 @@ pub fn facts_of(episode: &ExaminedEpisode) -> Option<Facts> {
     let facing_rad = moments.first()?.heading_and_speed?.0;
     let steps_m: Vec<f64> = feet.windows(2).map(|pair| pair[0].distance(pair[1])).collect();
     let way_m: f64 = steps_m.iter().sum();
-    let walks = way_m >= WALK_M;
+    let duration_s = episode.dt_s * (feet.len() - 1) as f64;
+    let walks = way_m >= WALK_M || way_m > 0.0 && way_m >= WALK_MPS * duration_s;
     let walk = Walk::of(&feet, episode.dt_s);
     let (turns, doubtful_turns) = if walks { walk.turns() } else { (vec![], vec![]) };
     let walking_s = episode.dt_s * stands.iter().skip(1).filter(|stands| !**stands).count() as f64;
@@ -81,7 +83,7 @@ pub fn facts_of(episode: &ExaminedEpisode) -> Option<Facts> {
         bends: walks && walk.bends(),
         dt_s: episode.dt_s,
         stops: if walks { stops(&stands, episode.dt_s) } else { vec![] },
-        duration_s: episode.dt_s * (feet.len() - 1) as f64,
+        duration_s,
         way_m,
         walking_speed_mps: if walks && walking_s > 0.0 { way_m / walking_s } else { 0.0 },
         distance_m: mean(&distance_m),

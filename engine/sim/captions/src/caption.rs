@@ -191,6 +191,20 @@ pub(crate) mod tests {
     }
 
     #[test]
+    fn one_second_is_no_plural() {
+        let config = CaptionConfig { variants_per_style: 8, ..CaptionConfig::default() };
+        let mut said = 0;
+        for (at, known) in flights().into_iter().enumerate() {
+            let brief = Facts { duration_s: 1.0, stops: vec![], ..known };
+            for caption in captions(&brief, &config, Seed::of_item(3, "captions", &at.to_string())) {
+                assert!(!caption.text.contains(" 1 seconds"), "{}", caption.text);
+                said += usize::from([" 1 second", "1秒"].iter().any(|it| caption.text.contains(it)));
+            }
+        }
+        assert!(said > 60, "{said}");
+    }
+
+    #[test]
     fn who_runs_is_not_said_to_walk() {
         let config = CaptionConfig { variants_per_style: 8, ..CaptionConfig::default() };
         let walking = ["walk", "on foot", "步行", "行走", "走"];

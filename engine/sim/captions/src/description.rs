@@ -20,7 +20,7 @@ pub(crate) fn description(facts: &Facts, template: usize, speaker: &mut Speaker<
     let target = who(facts.wear.as_ref(), speaker);
     let subject = fill(&capital(speaker.one("flight-subject")), &[("who", &target)]);
     if !facts.walks {
-        let duration = rounded(facts.duration_s, duration_step_s(facts.duration_s));
+        let duration = speaker.messages.seconds(&rounded(facts.duration_s, duration_step_s(facts.duration_s)));
         let walk = speaker.say("flight-stands", &[("subject", &subject), ("t", &duration)]);
         return if template.is_multiple_of(2) { [walk, drone].join(gap) } else { [drone, walk].join(gap) };
     }
@@ -106,7 +106,7 @@ fn stops(facts: &Facts, speaker: &mut Speaker<'_>) -> String {
 
 fn length(facts: &Facts, speaker: &mut Speaker<'_>) -> String {
     let way = rounded(facts.way_m, way_step_m(facts.way_m));
-    let duration = rounded(facts.duration_s, duration_step_s(facts.duration_s));
+    let duration = speaker.messages.seconds(&rounded(facts.duration_s, duration_step_s(facts.duration_s)));
     let speed = rounded(facts.walking_speed_mps, SPEED_STEP_MPS);
     let id = match pace(facts) {
         Pace::Whole => "length[whole]",

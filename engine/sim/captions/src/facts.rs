@@ -10,8 +10,10 @@ use serde::{Deserialize, Serialize};
 const STANDING_MPS: f64 = 0.05;
 /// Shorter pauses are not worth a word, seconds.
 pub(crate) const LEAST_STOP_S: f64 = 1.0;
-/// A target that moves less than this in all stands, metres.
+/// A target that moves less than this in all stands, metres, unless it moves at the pace of a walk.
 const LEAST_WALK_M: f64 = 1.0;
+/// Slower than this nobody walks, m/s.
+const SLOWEST_WALK_MPS: f64 = 0.5;
 /// People who are faster while they move run, m/s.
 pub(crate) const RUNNING_MPS: f64 = 2.2;
 /// Way at the start and at the end of a walk that gives their directions, metres.
@@ -51,7 +53,7 @@ impl From<&Outfit> for Wear {
 /// Typed facts of one trajectory.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Facts {
-    /// False when the target stays within a metre.
+    /// False when the target stays within a metre and is slower than somebody who walks.
     pub walks: bool,
     /// Walking direction at the start (facing, when it stands).
     pub start_direction: Compass,
@@ -157,7 +159,7 @@ pub fn facts(trajectory: &Trajectory) -> Facts {
     let feet: Vec<DVec2> = track.states.iter().map(|state| state.feet_in_world.truncate()).collect();
     let moving: Vec<bool> = track.states.iter().map(|state| state.speed_mps >= STANDING_MPS).collect();
     let way_m = track.length_m();
-    let walks = way_m >= LEAST_WALK_M;
+    let walks = walks(way_m, track.duration_s());
     let path = if walks { Path::of(&feet, &moving, track.dt_s) } else { Path::of(&[], &[], track.dt_s) };
     let facing = track.states.first().map_or(0.0, |state| state.heading_rad);
     let direction = |from_m: f64| Compass::of_yaw_rad(path.direction_rad(from_m, from_m + END_M).unwrap_or(facing));
@@ -187,6 +189,11 @@ pub fn facts(trajectory: &Trajectory) -> Facts {
         wear: None,
         left_out: None,
     }
+}
+
+/// Whether a way in a time is a walk, be it a short one.
+pub(crate) fn walks(way_m: f64, duration_s: f64) -> bool {
+    way_m >= LEAST_WALK_M || way_m > 0.0 && way_m >= SLOWEST_WALK_MPS * duration_s
 }
 
 /// Runs of standing frames of at least [`LEAST_STOP_S`].
@@ -303,6 +310,13 @@ mod tests {
         let known = facts(&flight(&[(None, 50)]));
         assert_eq!((known.walks, known.start_direction, known.walking_speed_mps), (false, Compass::East, 0.0));
         assert!(known.turns.is_empty() && known.stops.is_empty());
+    }
+
+    #[test]
+    fn a_short_flight_behind_somebody_who_walks_is_a_walk() {
+        let known = facts(&flight(&[(Some(0.0), 2)]));
+        assert!(known.walks && known.way_m < LEAST_WALK_M, "{known:?}");
+        assert!(walks(0.3, 0.5) && !walks(0.2, 0.5) && walks(1.0, 60.0) && !walks(0.0, 0.0));
     }
 
     #[test]

@@ -17,7 +17,7 @@ pub fn facts_in_words(facts: &Facts, language: Language, style: Style) -> String
         if facts.walks {
             lines.extend(of_the_walk(facts, messages));
         }
-        let duration = rounded(facts.duration_s, duration_step_s(facts.duration_s));
+        let duration = messages.seconds(&rounded(facts.duration_s, duration_step_s(facts.duration_s)));
         lines.push(messages.filled("fact-duration", &[("t", &duration)]));
         let height = rounded(facts.altitude_m, DISTANCE_STEP_M);
         lines.extend((facts.altitude_m >= 0.5).then(|| messages.filled("fact-height", &[("h", &height)])));
@@ -53,7 +53,7 @@ fn of_the_walk(facts: &Facts, messages: &Messages) -> [String; 3] {
         _ => "fact-turns",
     };
     let stops_id = if facts.stops.is_empty() { "fact-no-stops" } else { "fact-stops" };
-    let standing = rounded(facts.standing_s(), STOP_STEP_S);
+    let standing = messages.seconds(&rounded(facts.standing_s(), STOP_STEP_S));
     let way = rounded(facts.way_m, way_step_m(facts.way_m));
     let speed = rounded(facts.walking_speed_mps, SPEED_STEP_MPS);
     [

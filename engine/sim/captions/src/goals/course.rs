@@ -2,7 +2,7 @@
 
 use super::claim::{Claim, Hider, Said, is_named};
 use super::crossings::crossings;
-use crate::facts::{RUNNING_MPS, Wear};
+use crate::facts::{RUNNING_MPS, Wear, walks};
 use crate::sight::Landmarks;
 use crate::turns::{Path, Turns};
 use cosfly_claims::TurnKind;
@@ -14,8 +14,6 @@ use std::ops::Range;
 const STANDING_MPS: f64 = 0.05;
 /// Shorter pauses, and shorter times out of sight or partly hidden, are not worth a word, seconds.
 const LEAST_S: f64 = 1.0;
-/// A target that moves less than this in all stands, metres.
-const LEAST_WALK_M: f64 = 1.0;
 
 /// Frames in a row in which something hides the target.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,7 +76,7 @@ pub struct CourseData<'a> {
 pub struct Course<'a> {
     pub(super) flight: &'a CourseData<'a>,
     pub(super) landmarks: &'a Landmarks,
-    /// False when the target stays within a metre.
+    /// False when the target stays within a metre and is slower than somebody who walks.
     pub(super) walks: bool,
     /// The turns.
     pub(super) turns: Turns,
@@ -96,7 +94,7 @@ impl<'a> Course<'a> {
         let feet: Vec<DVec2> = flight.states.iter().map(|state| state.feet_in_world.truncate()).collect();
         let moving: Vec<bool> = flight.states.iter().map(|state| state.speed_mps >= STANDING_MPS).collect();
         let way_m: f64 = feet.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
-        let walks = way_m >= LEAST_WALK_M;
+        let walks = walks(way_m, flight.states.len().saturating_sub(1) as f64 * flight.dt_s);
         let path = if walks { Path::of(&feet, &moving, flight.dt_s) } else { Path::of(&[], &[], flight.dt_s) };
         let turns = path.turns();
         let stops = if walks { pauses(&moving, flight.dt_s) } else { vec![] };
