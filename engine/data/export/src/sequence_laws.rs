@@ -137,6 +137,24 @@ fn a_sequence_of_one_target_begins_when_it_is_seen_and_says_when_it_is_not() {
 }
 
 #[test]
+fn flights_without_a_caption_have_a_sentence_that_fits_vehicles_in_the_language_asked_for() {
+    let home = tempfile::tempdir().unwrap();
+    let mut flights = sample::flights();
+    flights.iter_mut().for_each(|flight| flight.captions.clear());
+    let encoding = EncodingConfig::default();
+    sample::write_flights(&home.path().join("wordless"), &DatasetConfig::default(), encoding, flights).unwrap();
+    let dataset = PublishedDataset::open(&home.path().join("wordless")).unwrap();
+    for (language, said) in [("en", "Follow the target and keep it in view."), ("zh", "跟随目标，让它一直在画面里。")]
+    {
+        let (files, _) = export(&dataset, "lasot", json!({"language": language}), &home.path().join(language));
+        assert!(list(&files).iter().all(|row| {
+            let (split, name) = (row["split"].as_str().unwrap(), row["sequence"].as_str().unwrap());
+            text(&files, &format!("{split}/pedestrian/{name}/nlp.txt")).trim_end() == said
+        }));
+    }
+}
+
+#[test]
 fn a_choice_without_a_target_is_refused_and_pictures_are_jpeg_whatever_the_dataset_has() {
     let home = tempfile::tempdir().unwrap();
     let encoding = EncodingConfig { rgb: RgbEncoding::Png, ..EncodingConfig::default() };

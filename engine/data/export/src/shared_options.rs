@@ -59,6 +59,14 @@ impl InstructionLanguage {
         }
     }
 
+    /// An instruction that fits every target, be it a person or a vehicle.
+    pub fn plain_instruction(self) -> &'static str {
+        match self {
+            Self::En => "Follow the target and keep it in view.",
+            Self::Zh => "跟随目标，让它一直在画面里。",
+        }
+    }
+
     /// Column of table `windows` with the instructions in the language.
     pub fn of_windows(self) -> Column<DatasetItem, String> {
         match self {

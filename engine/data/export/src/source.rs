@@ -308,6 +308,6 @@ impl ExportedFlight<'_> {
         let [other, plain] = &mut *self.source.fallen_back.borrow_mut();
         let list = if first.is_some() { other } else { plain };
         list.insert(self.flight.trajectory_id.clone());
-        first.map_or("Follow the pedestrian and keep them in view.", |caption| &caption.text)
+        first.map_or(language.plain_instruction(), |caption| &caption.text)
     }
 }

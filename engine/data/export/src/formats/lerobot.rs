@@ -385,8 +385,8 @@ DEPTH
   the first k leads to the expert's pose k frames later, from perturbed poses, too. An action is a whole chunk: policies of
   chunks use a chunk of 1, and `action.reshape(5, 6)` has the steps. Behind the end of a flight the expert waits.
 * `observation.sensors`: the last reading of each sensor of the dataset, where it has any, without the true numbers; `meta/info.json` names the numbers.
-* `privileged.pose`: the drone's x, y, z, pitch, yaw, roll. `privileged.target`: the place between the person's feet. `privileged.box`:
-  left, top, right, bottom edges of what can be seen of the person, pixels; -1 where nothing is. World: CARLA's axes. These are
+* `privileged.pose`: the drone's x, y, z, pitch, yaw, roll. `privileged.target`: the place between the target's feet. `privileged.box`:
+  left, top, right, bottom edges of what can be seen of the target, pixels; -1 where nothing is. World: CARLA's axes. These are
   labels that no drone has; policies of LeRobot take only features called `observation...` as inputs.
 ";
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from ._env_config import EnvOptions
 
-PROMPT = "Follow the person and keep them in view."
+PROMPT = "Follow the target and keep it in view."
 
 
 class TrackBenchmark(StepBenchmark):

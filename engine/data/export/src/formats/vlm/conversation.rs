@@ -110,7 +110,7 @@ fn system(options: &Options) -> String {
         IncrementAxes::Body => "the body's axes at the waypoint before (x ahead, y right, z up)",
     };
     format!(
-        "You steer a drone that follows a person without losing sight of them. Answer with one JSON object: \
+        "You steer a drone that follows a target without losing sight of it. Answer with one JSON object: \
          {{\"waypoint_deltas\": [[dx, dy, dz, dpitch, dyaw, droll], ...]}} with {} increments, each from the waypoint \
          before, the first from the current pose. dx, dy, dz are metres along {axes}; angles are degrees, positive: \
          nose up, to the right, right side down.",
@@ -150,10 +150,8 @@ fn question(
         }
     }
     if shown.boxes {
-        let _ = writeln!(
-            text,
-            "Boxes of the person, [left, top, right, bottom] in {unit}, null where they cannot be seen:"
-        );
+        let _ =
+            writeln!(text, "Boxes of the target, [left, top, right, bottom] in {unit}, null where it cannot be seen:");
         for row in seen {
             let _ = writeln!(text, "{}", box_text(row, options.box_scale, full, size));
         }

@@ -3,6 +3,7 @@
 use crate::command::Outcome;
 use crate::console::Console;
 use crate::exit;
+use crate::text;
 use clap::Args;
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_fly::bundle::Bundle;
@@ -48,8 +49,8 @@ impl Arguments {
         let written: Result<()> =
             write_file(&path, &bytes).map_err(|error| Diagnostic::io(format!("write {}", path.display()), &error));
         written?;
-        let (shown, episodes, size_mb) = (path.display(), bundle.episodes.len(), bytes.len() as f64 / 1e6);
-        console.print(&format!("{shown}: {episodes} episodes, {size_mb:.2} MB\n"))?;
+        let (shown, episodes) = (path.display(), text::count(bundle.episodes.len() as u64, "episode"));
+        console.print(&format!("{shown}: {episodes}, {}\n", text::bytes(bytes.len() as u64)))?;
         Ok(exit::SUCCESS)
     }
 }

@@ -39,7 +39,7 @@ pub struct PolicyArguments {
     #[arg(long, value_name = "LOOK", default_value = "simple", value_parser = look)]
     look: PictureLook,
     /// Text of the task in observations
-    #[arg(long, value_name = "TEXT", default_value = "Follow the person and keep them in view.")]
+    #[arg(long, value_name = "TEXT", default_value = "Follow the target and keep it in view.")]
     prompt: String,
     /// Time within which an answer must come, seconds; an episode without one ends, and one before the first answer is not scored
     #[arg(long, value_name = "SECONDS", default_value_t = 10.0, value_parser = seconds)]

@@ -19,7 +19,7 @@ from ..gym import Track, action_space
 
 ID = "cosfly/LeRobotTrack-v0"
 _RENDERED_SIZE = 128
-PROMPT = "Follow the person and keep them in view."
+PROMPT = "Follow the target and keep it in view."
 
 
 class LeRobotTrack(gymnasium.Env):
