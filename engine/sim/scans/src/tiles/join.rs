@@ -47,7 +47,7 @@ pub struct JoinedTiles {
     pub tilesets: usize,
     /// Largest geometric error of a tile that is in it, metres.
     pub geometric_error_m: f64,
-    /// Parts that show points alone and are left out.
+    /// Parts that show points or lines alone and are left out.
     pub points: usize,
     /// Whether tiles state geometric errors of their own as properties, which are not read.
     pub has_own_errors: bool,
@@ -243,7 +243,7 @@ impl Walk<'_> {
         let bytes = (self.read)(path).map_err(in_file)?;
         let (all, points) = shapes(&bytes).map_err(in_file)?;
         self.found.points += points;
-        self.found.tiles += usize::from(!all.is_empty());
+        let mut is_in = false;
         let read = &mut *self.read;
         for part in all {
             // Shapes stand up first; the centre from which they count is one of the tile.
@@ -253,8 +253,11 @@ impl Walk<'_> {
                 Z_UP_FROM_Y_UP.transpose() * *scene_from_tile * moved * upright
             };
             let mut beside = |uri: &str| read(&within(folder_of(path), uri)?);
-            self.joined.add(part.file, &place, &mut beside).map_err(in_file)?;
+            let is_added = self.joined.add(part.file, &place, &mut beside).map_err(in_file)?;
+            self.found.points += usize::from(!is_added);
+            is_in |= is_added;
         }
+        self.found.tiles += usize::from(is_in);
         Ok(())
     }
 }
@@ -322,6 +325,22 @@ mod tests {
             check_refused(&one, &text(&view), words);
         }
         check_refused(&one, &text(",\"buffers\":[{\"uri\":\"../../secret\"}]"), "leads out");
+    }
+
+    #[test]
+    fn tiles_of_points_alone_are_left_out() {
+        let points =
+            json!({ "asset": { "version": "2.0" }, "meshes": [{ "primitives": [{ "mode": 0, "attributes": {} }] }] });
+        check_refused(&tile("0.gltf"), points.to_string().as_bytes(), "no tile has shapes");
+        let both = json!({ "geometricError": 0, "contents": [{ "uri": "0.glb" }, { "uri": "points.gltf" }] });
+        let tileset = json!({ "asset": { "version": "1.1" }, "geometricError": 1, "root": both }).to_string();
+        let files = |path: &str| match path {
+            "tileset.json" => tileset.clone().into_bytes(),
+            "0.glb" => crate::gltf::GlTf::EXAMPLE.to_vec(),
+            _ => points.to_string().into_bytes(),
+        };
+        let joined = join("tileset.json", &TilesChoice::default(), &mut |path| Ok(files(path))).expect("a mesh");
+        assert_eq!((joined.tiles, joined.points), (1, 1));
     }
 
     #[test]

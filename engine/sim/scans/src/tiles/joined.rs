@@ -20,6 +20,8 @@ const OF_ACCESSOR: [&str; 7] = ["byteOffset", "componentType", "count", "max", "
 const OF_NODE: [&str; 5] = ["name", "matrix", "translation", "rotation", "scale"];
 const OF_MATERIAL: [&str; 5] = ["name", "alphaMode", "alphaCutoff", "doubleSided", "emissiveFactor"];
 const OF_SAMPLER: [&str; 4] = ["magFilter", "minFilter", "wrapS", "wrapT"];
+/// Modes of shapes below this one are points and lines.
+const FIRST_OF_TRIANGLES: u64 = 4;
 /// Extensions of what is carried over, where a file has them.
 const GLOSSINESS: &str = "KHR_materials_pbrSpecularGlossiness";
 const TRANSFORM: &str = "KHR_texture_transform";
@@ -50,8 +52,8 @@ struct Part<'a> {
 }
 
 impl Joined {
-    /// Adds a file. `place` gives the way from its frame to that of the whole, by the place from which its corners count; `read` opens a
-    /// file that this one names.
+    /// Adds a file, unless it shows points or lines alone; says whether it did. `place` gives the way from its frame to that of the
+    /// whole, by the place from which its corners count; `read` opens a file that this one names.
     ///
     /// # Errors
     /// Other versions, packed shapes and pictures, damaged files, more than a file can hold.
@@ -60,7 +62,7 @@ impl Joined {
         file: &[u8],
         place: &dyn Fn(DVec3) -> DMat4,
         read: &mut dyn FnMut(&str) -> Result<Vec<u8>, MapError>,
-    ) -> Result<(), MapError> {
+    ) -> Result<bool, MapError> {
         let (text, blob) = if file.starts_with(MAGIC) { chunks(file)? } else { (file, None) };
         let text = text.strip_prefix("\u{feff}".as_bytes()).unwrap_or(text);
         self.text_bytes += text.len();
@@ -72,6 +74,9 @@ impl Joined {
         let document: Value = serde_json::from_slice(text)
             .map_err(|error| MapError::new(format!("its glTF text cannot be read: {error}")))?;
         check(&document)?;
+        if is_of_points(&document) {
+            return Ok(false);
+        }
         let mut part = Part { document: &document, first: self.lists.each_ref().map(Vec::len), buffers: vec![] };
         for (index, buffer) in list(&document, "buffers").iter().enumerate() {
             let own;
@@ -120,7 +125,7 @@ impl Joined {
         }
         self.roots.push(self.lists[0].len());
         self.lists[0].push(json!({ "matrix": matrix.to_cols_array(), "children": roots }));
-        Ok(())
+        Ok(true)
     }
 
     /// A view, packed or not.
@@ -210,6 +215,12 @@ impl Joined {
 /// The things of a list of a file.
 fn list<'a>(document: &'a Value, name: &str) -> &'a [Value] {
     document[name].as_array().map_or(&[], Vec::as_slice)
+}
+
+/// Whether a file has shapes, and none of them has triangles.
+fn is_of_points(document: &Value) -> bool {
+    let mut shapes = list(document, "meshes").iter().flat_map(|mesh| list(mesh, "primitives")).peekable();
+    shapes.peek().is_some() && shapes.all(|shape| shape["mode"].as_u64().is_some_and(|mode| mode < FIRST_OF_TRIANGLES))
 }
 
 /// Bytes that an address holds or names.

@@ -132,7 +132,7 @@ impl Arguments {
             glb.len()
         );
         if *points > 0 {
-            text += &format!("{points} parts show points alone and are left out\n");
+            text += &format!("left out, as without triangles: {}\n", count(*points as u64, "part"));
         }
         if *has_own_errors {
             text += "tiles state geometric errors as properties, which are not read: each level counts as half as coarse as the one above\n";
