@@ -89,7 +89,7 @@ fn frames_and_poses_are_the_same_in_all_layouts() {
 
 #[test]
 fn what_a_layout_does_not_hold_is_refused_with_what_it_holds() {
-    let (_home, [_, v7, lerobot]) = published();
+    let (_home, [ours, v7, lerobot]) = published();
     let refused = |folder: &Path, name: &str| {
         let refusal = open(folder).unwrap().image(0, channels::called(name).unwrap(), 0).unwrap_err();
         (refusal.code, refusal.hints.join(" "))
@@ -97,6 +97,8 @@ fn what_a_layout_does_not_hold_is_refused_with_what_it_holds() {
     let (code, hints) = refused(&lerobot, "depth");
     assert!(code == "dataset-channel" && hints.contains("rgb"), "{hints}");
     assert_eq!(refused(&v7, "normals").0, "dataset-channel");
+    let (code, hints) = refused(&ours, "disparity");
+    assert!(code == "dataset-channel" && hints.contains("semantic"), "{hints}");
     let missing = open(&v7).unwrap().table("objects", None).unwrap_err();
     assert!(missing.code == "dataset-none" && missing.hints[0].contains("frames"), "{missing:?}");
     assert_eq!(open(Path::new("/nowhere")).err().unwrap().code, "dataset-none");

@@ -6,7 +6,7 @@
 use super::damage::damaged;
 use super::log::summary;
 use super::records::RECORD_LIMIT;
-use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::Channel;
 use cosfly_domain::channels::Element;
 use cosfly_schema::log::{FrameTimes, formats, topic};
@@ -105,11 +105,12 @@ impl ImageLog {
     /// The image of `channel` in frame `frame`.
     ///
     /// # Errors
-    /// The log has no such image, or is damaged there.
+    /// The log has no such channel (`dataset-channel`) or image, or is damaged there.
     pub fn image(&self, channel: &Channel, frame: usize) -> Result<StoredImage> {
         let time = self.times.ns(frame);
         let absent = || damaged(&self.path, "an image is missing", format!("`{}` of frame {frame}", channel.name));
-        let (_, number) = self.channels.iter().find(|(name, _)| *name == channel.name).ok_or_else(absent)?;
+        let number = self.channels.iter().find(|(name, _)| *name == channel.name);
+        let (_, number) = number.ok_or_else(|| self.without(channel))?;
         // Chunks before the first one that begins later; those that end earlier do not count.
         let end = self.chunks.partition_point(|chunk| chunk.first_ns <= time);
         for chunk in self.chunks[..end].iter().rev().filter(|chunk| chunk.last_ns >= time) {
@@ -119,6 +120,14 @@ impl ImageLog {
             }
         }
         Err(absent())
+    }
+
+    /// The error of a channel that was not filmed.
+    fn without(&self, channel: &Channel) -> Box<Diagnostic> {
+        let message = format!("`{}` has no channel `{}`", self.path.display(), channel.name);
+        let known: Vec<&str> = self.channels().collect();
+        Diagnostic::new("dataset-channel", Fault::Recipe, message)
+            .hint(format!("it has {}; `channels` of the stage `render` asks for others", known.join(", ")))
     }
 
     /// Place of the message of a time, from the start of the chunk's messages.
