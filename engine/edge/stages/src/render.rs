@@ -60,8 +60,14 @@ impl StageKind for Render {
             ..parameters::refused_at(&problem.path, problem.message)
         })?;
         let films = config.films();
-        let cameras = films.iter().map(|name| config.of_camera(Some(name)).camera()).chain([config.camera()]);
-        let pixels = cameras.map(|camera| u64::from(camera.width) * u64::from(camera.height)).max().unwrap_or_default();
+        let bytes = |film: Option<&str>| {
+            let (own, frames) = (config.of_camera(film), 200);
+            u64::from(own.width) * u64::from(own.height) * 3 / 4 * frames / u64::from(own.every)
+        };
+        let bytes_per_item = match films.len() as u64 {
+            0 => bytes(None),
+            count => films.iter().map(|film| bytes(Some(film))).sum::<u64>() / count,
+        };
         let items = match films.is_empty() {
             false => ItemRule::PerVariant { port: "trajectories", variants: films },
             true => ItemRule::PerInput("trajectories"),
@@ -76,7 +82,7 @@ impl StageKind for Render {
             sources,
             inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],
             items,
-            bytes_per_item: 200 * pixels * 3 / 4,
+            bytes_per_item,
             files_per_item: 2,
             intermediate: &[PACK],
             ..StageProperties::new(self.name(), StageRole::Films, FRAMES)
@@ -382,5 +388,14 @@ mod tests {
         let reason = camera_inside(&world, poses.iter().copied()).expect("it is inside");
         assert_eq!(reason, "the camera is inside of obstacle 4 (wall) at frame 1");
         assert_eq!(camera_inside(&world, poses[..1].iter().copied()), None);
+    }
+
+    #[test]
+    fn predicted_bytes_are_those_of_the_cameras_that_film() {
+        let bytes = |given: serde_json::Value| Render.build(given).unwrap()[1].stage.properties().bytes_per_item;
+        let small = bytes(serde_json::json!({"width": 64, "height": 32}));
+        assert_eq!(bytes(serde_json::json!({"cameras": {"a": {"width": 64, "height": 32}}})), small);
+        assert_eq!(bytes(serde_json::json!({"cameras": {"a": {"width": 64, "height": 32, "every": 4}}})), small / 4);
+        assert!(bytes(serde_json::json!({})) > 100 * small);
     }
 }
