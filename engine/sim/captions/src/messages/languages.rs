@@ -20,11 +20,6 @@ fn file(language: Language) -> &'static str {
     }
 }
 
-/// Messages of a language.
-pub(crate) fn messages(language: Language) -> &'static Messages {
-    &TABLES[language as usize][1]
-}
-
 /// Messages of a language about somebody who runs, or walks.
 pub(crate) fn messages_of(language: Language, runs: bool) -> &'static Messages {
     &TABLES[language as usize][usize::from(!runs)]

@@ -7,7 +7,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use languages::{approximately, messages, messages_of};
+pub(crate) use languages::{approximately, messages_of};
 pub(crate) use slots::{capital, fill};
 pub(crate) use speaker::Speaker;
 pub(crate) use table::Messages;

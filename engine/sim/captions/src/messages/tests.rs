@@ -1,6 +1,6 @@
 //! Laws of the tables: all languages have the same messages and slots, each message is used, and a new table speaks.
 
-use super::{Messages, Speaker, messages, messages_of};
+use super::{Messages, Speaker, messages_of};
 use crate::caption::tests::flights;
 use crate::description::description;
 use crate::instruction::instruction;
@@ -28,6 +28,11 @@ const OPTIONAL: &[&str] = &[
     "be", "not", "v", "look", "front", "back", "all", "side", "place", "C", "L", "w", "f", "c", "m", "n", "t", "r",
     "o", "p",
 ];
+
+/// Messages about somebody who walks.
+fn messages(language: Language) -> &'static Messages {
+    messages_of(language, false)
+}
 
 fn slots(text: &str) -> BTreeSet<&str> {
     let names = text.split('{').skip(1).filter_map(|it| it.split_once('}')).map(|(name, _)| name);

@@ -171,6 +171,8 @@ mod tests {
             texts(&target, &[twin(true, 1.0, 0.9)]).unwrap(),
             ["the person on the left of the picture", "画面左侧的人"]
         );
+        let fast = Candidate { speed_mps: 2.5, ..target };
+        assert_eq!(texts(&fast, &[twin(true, 0.0, 0.1)]).unwrap(), ["the running person", "正在跑步的人"]);
         // At the border of the picture's parts, and of motion, nobody could deny that the phrase fits.
         assert_eq!(texts(&target, &[twin(true, 0.2, 0.35)]), None);
         assert_eq!(texts(&target, &[Candidate { kind: BodyKind::Bicycle, ..target }]).unwrap()[0], "the person");

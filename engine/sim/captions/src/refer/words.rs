@@ -1,14 +1,16 @@
 //! Referring phrases in words.
 
 use super::phrase::{Phrase, Property};
-use crate::messages::{Messages, messages};
+use crate::facts::RUNNING_MPS;
+use crate::messages::{Messages, messages_of};
 use crate::part::PicturePart;
 use cosfly_claims::Language;
 use cosfly_domain::BodyKind;
 
 /// A phrase in words, such as `the walking person in a red top`.
 pub fn text(phrase: &Phrase, language: Language) -> String {
-    phrase_in(phrase, messages(language))
+    let runs = phrase.of.kind.is_on_foot() && phrase.of.speed_mps > RUNNING_MPS;
+    phrase_in(phrase, messages_of(language, runs))
 }
 
 fn phrase_in(phrase: &Phrase, messages: &Messages) -> String {
