@@ -160,6 +160,15 @@ fn a_full_disk_is_named_and_nothing_half_written_is_trusted() {
 }
 
 #[test]
+#[cfg(target_os = "linux")]
+fn what_standard_error_cannot_take_changes_no_exit_code() {
+    assert_eq!(cosfly(&["doctor", "/nowhere"]).run_untold(), Some(4));
+    assert_eq!(cosfly(&["run", "/nowhere.toml"]).run_untold(), Some(3));
+    let street = Street::new();
+    assert_eq!(cosfly(&["run", "recipe.toml"]).within(street.path()).run_untold(), Some(0));
+}
+
+#[test]
 fn commands_that_are_told_can_be_pasted() {
     let folder = tempfile::tempdir().expect("a folder");
     let printed = cosfly(&["init", "my street", "--template", "small"]).within(folder.path()).run_ok();

@@ -62,7 +62,7 @@ impl Console for Terminal {
     }
 
     fn tell(&self, message: &str) {
-        eprintln!("{}", cosfly_secrets::without_secrets(message));
+        output::tell(&cosfly_secrets::without_secrets(message));
     }
 
     fn input(&self) -> Box<dyn BufRead + '_> {

@@ -1,5 +1,6 @@
 //! Ctrl-C and termination signals set one flag; a second one ends the process at once, and so does a [`Deadline`].
 
+use crate::output;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
@@ -48,7 +49,7 @@ impl Deadline {
             while is_over.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
                 if flag.load(Ordering::SeqCst) && stopped_at.get_or_insert_with(Instant::now).elapsed() >= GRACE {
                     scratch.iter().for_each(|folder| remove_scratch(folder));
-                    eprintln!("stopped: items that were not finished are made again");
+                    output::tell("stopped: items that were not finished are made again");
                     std::process::exit(i32::from(crate::exit::STOPPED));
                 }
             }

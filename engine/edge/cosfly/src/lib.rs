@@ -37,7 +37,7 @@ pub enum Refusal {
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     guarded(|| {
         if let Err(message) = prepare() {
-            eprintln!("error: {message}");
+            output::tell(&format!("error: {message}"));
             return exit::ARGUMENTS;
         }
         match call(arguments, &Terminal) {
@@ -45,7 +45,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             Err(Refusal::Arguments(error)) => error.exit(),
             Err(Refusal::Work(refusals)) => {
                 let all = refusals.iter().map(|refusal| &**refusal);
-                eprintln!("{}", without_secrets(&cosfly_diagnose::render_all(all, Terminal.colour())));
+                output::tell(&without_secrets(&cosfly_diagnose::render_all(all, Terminal.colour())));
                 exit::code_of_all(&refusals)
             }
         }
@@ -99,7 +99,7 @@ fn compiled_plugins() -> Option<std::path::PathBuf> {
 /// Runs `work`; a panic is an internal error with an exit code of its own.
 fn guarded(work: impl FnOnce() -> u8) -> u8 {
     std::panic::catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| {
-        eprintln!("internal error: please report the lines above, with the recipe or command line");
+        output::tell("internal error: please report the lines above, with the recipe or command line");
         exit::BUG
     })
 }

@@ -1,4 +1,4 @@
-//! Standard output.
+//! Standard output and standard error.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result, visible_text};
 use std::borrow::Cow;
@@ -19,4 +19,9 @@ pub fn print(text: &str) -> Result<bool> {
             Err(Diagnostic::new("machine-io", Fault::Machine, "could not write to standard output").because(&error))
         }
     }
+}
+
+/// Tells standard error a line. One that cannot be written (a full disk, a reader that went away) is lost: work and exit code stay as they are.
+pub fn tell(text: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
 }

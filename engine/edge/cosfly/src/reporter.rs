@@ -1,5 +1,6 @@
 //! Reports of a run for people: bars on a terminal, plain lines when piped.
 
+use crate::output;
 use crate::text::count;
 use cosfly_diagnose::{Diagnostic, render};
 use cosfly_stage::{ItemId, RunEvent, StageName};
@@ -154,9 +155,9 @@ impl Reporter {
 
     fn always(&self, text: &str) {
         if self.detail == Detail::Bars {
-            self.bars.suspend(|| eprintln!("{text}"));
+            self.bars.suspend(|| output::tell(text));
         } else {
-            eprintln!("{text}");
+            output::tell(text);
         }
     }
 }
