@@ -60,14 +60,6 @@ impl StageKind for Render {
             ..parameters::refused_at(&problem.path, problem.message)
         })?;
         let films = config.films();
-        let bytes = |film: Option<&str>| {
-            let (own, frames) = (config.of_camera(film), 200);
-            u64::from(own.width) * u64::from(own.height) * 3 / 4 * frames / u64::from(own.every)
-        };
-        let bytes_per_item = match films.len() as u64 {
-            0 => bytes(None),
-            count => films.iter().map(|film| bytes(Some(film))).sum::<u64>() / count,
-        };
         let items = match films.is_empty() {
             false => ItemRule::PerVariant { port: "trajectories", variants: films },
             true => ItemRule::PerInput("trajectories"),
@@ -82,7 +74,7 @@ impl StageKind for Render {
             sources,
             inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],
             items,
-            bytes_per_item,
+            bytes_per_item: 200 * config.mean_pixels() * 3 / 4,
             files_per_item: 2,
             intermediate: &[PACK],
             ..StageProperties::new(self.name(), StageRole::Films, FRAMES)

@@ -89,10 +89,6 @@ impl Joined {
             };
             part.buffers.push([self.keep(bytes)?, bytes.len()]);
         }
-        let center = document["extensions"]["CESIUM_RTC"]["center"].as_array().map(|it| {
-            let number = |k: usize| it.get(k).and_then(Value::as_f64).unwrap_or_default();
-            DVec3::new(number(0), number(1), number(2))
-        });
         for node in list(&document, "nodes") {
             self.lists[0].push(part.node(node)?);
         }
@@ -119,7 +115,7 @@ impl Joined {
         self.used
             .extend([GLOSSINESS, TRANSFORM, DRACO].into_iter().filter(|name| used.clone().any(|own| own == *name)));
         let roots = part.roots()?;
-        let matrix = place(center.unwrap_or_default());
+        let matrix = place(center_of(&document));
         if !matrix.is_finite() {
             return Err(MapError::new("its place is no number"));
         }
@@ -215,6 +211,13 @@ impl Joined {
 /// The things of a list of a file.
 fn list<'a>(document: &'a Value, name: &str) -> &'a [Value] {
     document[name].as_array().map_or(&[], Vec::as_slice)
+}
+
+/// The place from which the corners of a file count.
+fn center_of(document: &Value) -> DVec3 {
+    let numbers = document["extensions"]["CESIUM_RTC"]["center"].as_array().map_or(&[][..], Vec::as_slice);
+    let number = |k: usize| numbers.get(k).and_then(Value::as_f64).unwrap_or_default();
+    DVec3::new(number(0), number(1), number(2))
 }
 
 /// Whether a file has shapes, and none of them has triangles.
