@@ -109,8 +109,7 @@ impl ImageLog {
     pub fn image(&self, channel: &Channel, frame: usize) -> Result<StoredImage> {
         let time = self.times.ns(frame);
         let absent = || damaged(&self.path, "an image is missing", format!("`{}` of frame {frame}", channel.name));
-        let number = self.channels.iter().find(|(name, _)| *name == channel.name);
-        let (_, number) = number.ok_or_else(|| self.without(channel))?;
+        let (_, number) = self.channels.iter().find(|it| it.0 == channel.name).ok_or_else(|| self.without(channel))?;
         // Chunks before the first one that begins later; those that end earlier do not count.
         let end = self.chunks.partition_point(|chunk| chunk.first_ns <= time);
         for chunk in self.chunks[..end].iter().rev().filter(|chunk| chunk.last_ns >= time) {
