@@ -73,7 +73,8 @@ fn a_town_has_streets_to_walk_and_nothing_solid_but_furniture_on_its_pavements()
     let town = read(&GenerateConfig::default(), 1);
     let count = |kind| town.obstacles.iter().filter(|obstacle| obstacle.kind == kind).count();
     assert!(count(ObstacleKind::Building) > 150 && count(ObstacleKind::TreeCrown) > 250);
-    assert!(count(ObstacleKind::Lamp) > 80 && count(ObstacleKind::Wall) > 4 && count(ObstacleKind::Static) > 20);
+    let furniture = count(ObstacleKind::Static) + count(ObstacleKind::Bench);
+    assert!(count(ObstacleKind::Lamp) > 80 && count(ObstacleKind::Wall) > 4 && furniture > 20);
     assert!(town.walkable.iter().filter(|area| area.kind == WalkableKind::Crossing).count() >= 60);
     let size = town.max_in_world - town.min_in_world;
     assert!(size.x > 300.0 && size.x < 520.0 && size.y > 300.0 && size.y < 520.0, "{size}");

@@ -133,9 +133,8 @@ impl<'a> Plan<'a> {
             awning.corners_in_world[number] += side * in_m * axis;
         }
         let rise_m = 2.0 * awning.half_bounds_m.z;
-        for face in 2 * across..2 * across + 2 {
-            let sign = BOX_FACES[face].1;
-            awning.sides_in_world[face] = (rise_m * sign * axis + in_m * DVec3::Z).normalize_or(DVec3::Z);
+        for (side, (_, sign, _)) in awning.sides_in_world.iter_mut().zip(BOX_FACES).skip(2 * across).take(2) {
+            *side = (rise_m * sign * axis + in_m * DVec3::Z).normalize_or(DVec3::Z);
         }
     }
 }

@@ -75,7 +75,7 @@ struct Seen {
 
 impl Pitched {
     /// Way down from the ridge in plan, cells.
-    fn from_ridge(&self, at: DVec2) -> f64 {
+    fn way_down(&self, at: DVec2) -> f64 {
         let (away, half) = ((at - 0.5 * (self.low + self.high)).abs(), self.half());
         match self.form {
             Form::Gable(along) => away[1 - along],
@@ -96,7 +96,7 @@ impl Pitched {
     }
 
     fn height_m(&self, at: DVec2) -> f64 {
-        self.ridge_m - self.slope * self.from_ridge(at)
+        self.ridge_m - self.slope * self.way_down(at)
     }
 
     fn holds(&self, at: DVec2) -> bool {
@@ -105,7 +105,7 @@ impl Pitched {
 
     /// The straight line through heights over ways from the ridge, twice without what is off it; the share of points on it.
     fn fitted(mut self, tops: &[DVec3], loose_m: f64) -> Option<(f64, Self)> {
-        let samples: Vec<(f64, f64)> = tops.iter().map(|at| (self.from_ridge(at.truncate()), at.z)).collect();
+        let samples: Vec<(f64, f64)> = tops.iter().map(|at| (self.way_down(at.truncate()), at.z)).collect();
         let mut kept = samples.clone();
         for _ in 0..3 {
             if kept.len() < LEAST_POINTS {
