@@ -48,7 +48,7 @@ def arguments() -> argparse.Namespace:
     add("--without", choices=sorted(PARTS), help="leave a part of the recipe out, to see what it is good for")
     add("--set", action="append", default=[], metavar="KEY=VALUE", help="change the recipe, as in `cosfly run`")
     add("--steps", type=counted, default=4000, help="steps of training of both networks at once (default: 4000)")
-    add("--alone", type=counted, default=8000, help="steps in which the detector then learns alone (default: 8000; together about an hour of one core)")
+    add("--alone", type=counted, default=2000, help="steps in which the detector then learns alone (default: 2000; together about 40 minutes of one core)")
     add("--per-frame", type=counted, default=3, help="bodies around which squares are cut from each picture (default: 3)")
     add("--every", type=counted, default=4, help="score the detector on every n-th picture of a sequence (default: 4)")
     add("--seed", type=int, default=1)
