@@ -42,7 +42,7 @@ fn example_files_are_what_their_program_writes() {
 fn check_scene(name: &str, town: &Town) {
     let houses = of_kind(town, ObstacleKind::Building);
     let crowns = of_kind(town, ObstacleKind::TreeCrown);
-    assert!(!houses.is_empty() && (top_m(&houses) - 8.0).abs() < 0.03, "{name}: {houses:?}");
+    assert!(!houses.is_empty() && (top_m(&houses) - 8.0).abs() < 0.01, "{name}: {houses:?}");
     assert!(!crowns.is_empty() && (top_m(&crowns) - 7.0).abs() < 0.1, "{name}: {crowns:?}");
     let scene_of = |obstacles: &[&Obstacle]| BoxBvh::build(obstacles.iter().map(|one| one.shape).collect());
     let (house, all) = (scene_of(&houses), scene_of(&town.obstacles.iter().collect::<Vec<_>>()));

@@ -3,7 +3,6 @@
 use super::class;
 use super::numbers::next_id;
 use super::outline::smooth_unseen;
-use super::pitched;
 use super::survey::{Survey, is_ground, plan_of};
 use crate::grid::{Grid, nearest_seeds, parts};
 use crate::plan::{convex_hull, smallest_rectangle_rad};
@@ -45,9 +44,6 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) -> Volumes {
             // Walls along the cells take few boxes and have few corners.
             let mut rasters = rasters.map(|raster| (corners(&raster, survey.step_m), raster));
             rasters.sort_by_key(|(corners, _)| *corners);
-            if let Some(cover) = site.pitched(&rasters[0].1) {
-                return cover;
-            }
             let covers = rasters[..2].iter().map(|(_, Raster { grid, columns, is_free })| {
                 boxes_of(grid, columns, survey.step_m, Bases::Highest, |cell| is_free[cell])
             });
@@ -117,13 +113,6 @@ impl<'a> Site<'a> {
         }
         let heights = cells.iter().map(|cell| survey.relief.height_m(survey.grid.center(*cell)));
         Self { survey, roof, others, foot_m: heights.fold(f64::INFINITY, f64::min) }
-    }
-
-    /// The cover of a raster with pitched roofs; none where it has none.
-    fn pitched(&self, raster: &Raster) -> Option<BoxCover> {
-        let points = self.roof.iter().map(|point| self.survey.cloud.point(*point)).collect();
-        let Raster { grid, columns, is_free } = raster;
-        pitched::Site { grid, columns, is_free, points, foot_m: self.foot_m, step_m: self.survey.step_m }.cover()
     }
 
     /// Directions that the walls may have: of the edge of the cells in the mean, of the smallest rectangle around the

@@ -1,7 +1,7 @@
 //! From points to a town: ground, classes where the file has none, buildings, trees and other things as boxes.
 //!
 //! [`sorting`] puts the points in the order of cells, [`survey`] knows them by cell. [`ground`] finds the ground, [`classify`] tells roofs from plants.
-//! [`buildings`] are columns of cells down to the ground with slopes where roofs have them, [`trees`] stacks of boxes, [`things`] the rest.
+//! [`buildings`] are columns of cells down to the ground, [`trees`] stacks of boxes, [`things`] the rest.
 
 pub mod buildings;
 pub mod classify;
@@ -10,7 +10,6 @@ mod houses;
 mod numbers;
 pub mod options;
 pub mod outline;
-mod pitched;
 pub mod planes;
 pub mod points;
 pub mod sorting;
