@@ -5,14 +5,14 @@ use crate::report::VerifyReport;
 use crate::rows::{self, ReadResult};
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, Int64Type};
-use cosfly_domain::{OrientedBox, SemanticLabel};
+use cosfly_domain::{ObstacleKind, OrientedBox, SemanticLabel};
 use cosfly_frames::{DMat3, DQuat, DVec3, Pose, real};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_read::{LogReader, LoggedSweep};
 use cosfly_schema::extras::is_taken;
 use cosfly_schema::log::cloud::{COLUMN, CloudPoint, POINT_BYTES, POSE};
 use cosfly_schema::log::reading::TOPICS;
-use cosfly_schema::tables::{self, Objects};
+use cosfly_schema::tables::{self, Objects, kind_name};
 use cosfly_sensors::SmoothFlight;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use std::collections::BTreeMap;
@@ -35,26 +35,49 @@ const ROW: f64 = 3.0;
 
 /// Boxes of a town that rays meet as boxes: cars are drawn as vehicles.
 struct Boxes {
-    /// What no ray passes: buildings without the highest step of a roof, the middles of crowns.
+    /// What no ray passes: buildings without the highest step of a roof, the middles of crowns; benches and stalls are open.
     solid: BoxBvh,
     /// All boxes by their instance id.
     things: BTreeMap<u32, Vec<OrientedBox>>,
 }
 
+/// How much of a box is drawn.
+#[derive(Clone, Copy)]
+enum Filled {
+    All,
+    /// All but a slope in its highest step.
+    BelowRoof,
+    Crown,
+    /// Boards and posts alone.
+    Parts,
+}
+
+impl Filled {
+    fn of(label: SemanticLabel, kind: &str) -> Self {
+        match label {
+            _ if [ObstacleKind::Bench, ObstacleKind::Stall].map(kind_name).contains(&kind) => Self::Parts,
+            SemanticLabel::Building => Self::BelowRoof,
+            SemanticLabel::Vegetation => Self::Crown,
+            _ => Self::All,
+        }
+    }
+}
+
 impl Boxes {
-    fn new(list: &[(u32, SemanticLabel, OrientedBox)]) -> Self {
+    fn new(list: &[(u32, Filled, OrientedBox)]) -> Self {
         let mut things: BTreeMap<u32, Vec<OrientedBox>> = BTreeMap::new();
         list.iter().for_each(|(instance, _, shape)| things.entry(*instance).or_default().push(*shape));
-        let solid = list.iter().map(|(_, label, shape)| {
-            let off_m = if *label == SemanticLabel::Building { 0.5 * ROOF_STEP_M * DVec3::Z } else { DVec3::ZERO };
+        let solid = list.iter().map(|(_, filled, shape)| {
+            let off_m = if matches!(filled, Filled::BelowRoof) { 0.5 * ROOF_STEP_M * DVec3::Z } else { DVec3::ZERO };
             let [least_m, most_m] = [
                 shape.half_extents_m.x.min(shape.half_extents_m.y),
                 shape.half_extents_m.x.max(shape.half_extents_m.y),
             ];
-            let core = match label {
-                SemanticLabel::Vegetation if most_m >= ROW * least_m => DVec3::ZERO,
-                SemanticLabel::Vegetation => DVec3::new(CORE, CORE, 1.0),
-                _ => DVec3::ONE,
+            let core = match filled {
+                Filled::Parts => DVec3::ZERO,
+                Filled::Crown if most_m >= ROW * least_m => DVec3::ZERO,
+                Filled::Crown => DVec3::new(CORE, CORE, 1.0),
+                Filled::All | Filled::BelowRoof => DVec3::ONE,
             };
             OrientedBox {
                 center_in_world: shape.center_in_world - off_m,
@@ -109,7 +132,7 @@ pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
 
 /// Boxes of each town; damage of the table is reported elsewhere.
 fn boxes_of_towns(flights: &Flights<'_>) -> BTreeMap<String, Boxes> {
-    let mut found: BTreeMap<String, Vec<(u32, SemanticLabel, OrientedBox)>> = BTreeMap::new();
+    let mut found: BTreeMap<String, Vec<(u32, Filled, OrientedBox)>> = BTreeMap::new();
     for file in flights.files.sound_below("data/objects/") {
         let _ = rows::read(&flights.folder.join(file), &tables::of_objects(), &mut |rows| {
             for row in 0..rows.len() {
@@ -121,7 +144,8 @@ fn boxes_of_towns(flights: &Flights<'_>) -> BTreeMap<String, Boxes> {
                 };
                 let label = rows.get(Objects::label, row)?;
                 if label != SemanticLabel::Car {
-                    list.push((rows.get(Objects::instance, row)?, label, shape));
+                    let filled = Filled::of(label, &rows.get(Objects::kind, row)?);
+                    list.push((rows.get(Objects::instance, row)?, filled, shape));
                 }
             }
             Ok(())
@@ -298,7 +322,7 @@ mod tests {
         };
         let poses: Vec<Pose> = (0..11).map(pose).collect();
         let wall = OrientedBox::from_corners(DVec3::new(-90.0, 20.0, 0.0), DVec3::new(90.0, 22.0, 40.0));
-        let boxes = Boxes::new(&[(7, SemanticLabel::Wall, wall)]);
+        let boxes = Boxes::new(&[(7, Filled::All, wall)]);
         let smooth = SmoothFlight::new(&poses, DT_S);
         let sweep = |number: u32| {
             let time_s = f64::from(number) * DT_S;
@@ -374,12 +398,16 @@ mod tests {
     #[test]
     fn slopes_of_roofs_lie_within_the_highest_step_of_a_building() {
         let house = OrientedBox::from_corners(DVec3::ZERO, DVec3::new(10.0, 10.0, 6.0));
-        let is_right = |label, z_m: f64, range_m| {
-            is_right(&Boxes::new(&[(7, label, house)]), 7, (DVec3::new(5.0, -20.0, z_m), DVec3::Y), range_m)
+        let ray = |filled, z_m: f64, range_m| {
+            is_right(&Boxes::new(&[(7, filled, house)]), 7, (DVec3::new(5.0, -20.0, z_m), DVec3::Y), range_m)
         };
+        let is_right = |label, z_m, range_m| ray(Filled::of(label, "any"), z_m, range_m);
         assert!(is_right(SemanticLabel::Building, 5.5, 24.0) && is_right(SemanticLabel::Building, 3.0, 20.0));
         assert!(!is_right(SemanticLabel::Building, 3.0, 24.0) && !is_right(SemanticLabel::Building, 5.5, 19.0));
         assert!(!is_right(SemanticLabel::Wall, 5.5, 24.0));
+        // Rays pass between the posts of a stall.
+        let is_open = |kind| ray(Filled::of(SemanticLabel::Static, kind), 3.0, 24.0);
+        assert!(is_open("stall") && is_open("bench") && !is_open("static"));
         // Crowns are round within their boxes.
         assert!(is_right(SemanticLabel::Vegetation, 5.5, 23.5) && !is_right(SemanticLabel::Vegetation, 5.5, 24.5));
     }

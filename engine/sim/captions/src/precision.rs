@@ -23,7 +23,7 @@ pub fn duration_step_s(duration_s: f64) -> f64 {
 /// Step for a way in metres.
 pub fn way_step_m(way_m: f64) -> f64 {
     match way_m {
-        step if step < 1.0 => 0.1,
+        brief if brief < 1.0 => 0.1,
         short if short < 30.0 => 1.0,
         middle if middle < 100.0 => 5.0,
         _ => 10.0,

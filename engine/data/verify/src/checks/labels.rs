@@ -10,7 +10,7 @@ const AGREEMENT: f64 = 0.05;
 const FEW_PIXELS: f64 = 300.0;
 /// Pixels that an outline explains, of a body of few pixels.
 const MOST_MISSED_PX: f64 = 10.0;
-const BOXES: &str = "rays meet boxes, within which roofs and crowns are drawn";
+const BOXES: &str = "rays meet boxes, within which roofs, crowns, benches and stalls are drawn";
 
 /// Compares the two shares in all frames of a flight that show the target.
 pub fn compare(file: &str, flight: &PlacedFlight, frames: &[PlacedFrame], report: &mut VerifyReport) {

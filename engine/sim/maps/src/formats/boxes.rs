@@ -146,6 +146,8 @@ enum KindName {
     Bridge,
     Car,
     Static,
+    Bench,
+    Stall,
 }
 
 #[derive(Deserialize)]
