@@ -31,7 +31,7 @@ def test_vla_eval_flies_all_episodes_with_its_own_orchestrator(tmp_path):
         """Turns the camera to the target and stays."""
 
         def predict(self, obs, ctx):
-            assert obs["state"].shape == (16,) and "person" in obs["task_description"]
+            assert obs["state"].shape == (16,) and "target" in obs["task_description"]
             assert obs["images"]["depth"].shape == (32, 32)
             ahead, right = obs["state"][:2]
             return {"actions": np.array([0, 0, 0, 0, np.degrees(np.arctan2(right, ahead))], dtype=np.float32)}
