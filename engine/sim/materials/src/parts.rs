@@ -1,5 +1,6 @@
 //! Boxes with their faces, and clusters of ground polygons: the parts of a scene.
 
+use crate::building_form::BuildingForm;
 use crate::kerbs::KerbLine;
 use crate::pattern::hash;
 use crate::roof_step::RoofStep;
@@ -35,6 +36,8 @@ pub struct SceneBox {
     pub town: u32,
     /// Middle and half size of the whole crown or building that the box belongs to; of the box itself for other kinds.
     pub whole: [Vec3; 2],
+    /// Form of the building that it belongs to.
+    pub form: BuildingForm,
     /// Place in a pitched roof; none for most boxes.
     pub roof: Option<Box<RoofStep>>,
     /// Sides, in the order of the faces, on which the flat roof of a building goes on over another box, or ends at a wall.
@@ -133,6 +136,7 @@ fn scene_box(obstacle: &Obstacle, look_seed: u32) -> Option<SceneBox> {
         seed: hash(obstacle.object_id, look_seed),
         town: look_seed,
         whole: [shape.center_in_world.as_vec3a(), half.as_vec3a()],
+        form: BuildingForm::Block,
         roof: None,
         roof_goes_on: [false; 4],
     })

@@ -3,6 +3,7 @@
 
 use cosfly_frames::Seed;
 use cosfly_frames::simd::Level;
+use cosfly_materials::building_form::BuildingForm;
 use cosfly_materials::facade::{BoxFace, Facade, Roof, facade, roofs};
 use cosfly_materials::lanes::{Block, FOUR, Shared, WIDE, get, set};
 use cosfly_materials::light::Light;
@@ -61,7 +62,8 @@ fn looks_of_walls_and_roofs_do_not_follow_from_the_pixels_beside() {
         let size_m = random.uniform(0.01, 0.4) as f32;
         let [width_m, height_m] = [random.uniform(6.0, 40.0), random.uniform(3.0, 50.0)].map(|length| length as f32);
         // A wall that looks along y, and a roof above it.
-        let wall = Facade::new(seed.wrapping_mul(0x9e37_79b1), 7, 0, [width_m, height_m], height_m);
+        let wall =
+            Facade::new(seed.wrapping_mul(0x9e37_79b1), 7, 0, [width_m, height_m], (BuildingForm::Block, height_m));
         let place = BoxFace { along: Vec3::new(1.0, 0.0, 0.0), edge_m: 0.0, foot_m: 0.0 };
         let places =
             core::array::from_fn(|_| Vec3::new(width_m * random.unit() as f32, 0.0, height_m * random.unit() as f32));

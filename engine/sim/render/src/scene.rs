@@ -10,6 +10,7 @@ use crate::shade::sun_tiles::SunMaps;
 use cosfly_domain::{ObstacleKind, Season, Town};
 use cosfly_figures::{Bystander, Clothes, figure};
 use cosfly_frames::{DVec3, Seed};
+use cosfly_materials::building_form::tell_forms;
 use cosfly_materials::drawn_shapes::cut_to_drawn;
 use cosfly_materials::grid::LightGrid;
 use cosfly_materials::ground_polygons::{GroundPolygon, GroundPolygons};
@@ -116,6 +117,7 @@ impl Scene {
         let mut boxes = boxes_of(town, look_seed);
         join_wholes(&mut boxes);
         set_roofs(&mut boxes);
+        tell_forms(&mut boxes);
         let sides = roofs_that_go_on(&boxes);
         boxes.iter_mut().zip(sides).for_each(|(b, sides)| b.roof_goes_on = sides);
         let clusters = clusters_of(town);

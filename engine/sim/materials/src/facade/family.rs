@@ -1,6 +1,7 @@
 //! Families of houses by use and age: what their walls, windows and ground floors are drawn from.
 
 use super::draws;
+use crate::building_form::BuildingForm;
 use crate::pattern::{draw, hash, one_if};
 use crate::vector::Vec3;
 
@@ -29,6 +30,8 @@ pub(super) struct Family {
     pub balconies: f32,
     /// Probability of shops at the street.
     pub shops: f32,
+    /// Doors and gates: share of the bays of the street floor, half their width and their height, metres.
+    pub door: [f32; 3],
     /// Strength of dirt.
     pub age: [f32; 2],
 }
@@ -78,11 +81,12 @@ const COMMON: Family = Family {
     joint: 0.0,
     balconies: 0.0,
     shops: 0.6,
+    door: [0.16, 0.55, 2.25],
     age: [0.2, 0.8],
 };
 
 /// From old to new.
-const FAMILIES: [Family; 13] = [
+const FAMILIES: [Family; 15] = [
     // Town houses of stone with deep windows and strong ledges.
     Family {
         walls: STONE,
@@ -251,26 +255,74 @@ const FAMILIES: [Family; 13] = [
         age: [0.2, 0.9],
         ..COMMON
     },
+    // Works halls: sheet metal, a band of windows below the roof, gates.
+    Family {
+        walls: METAL,
+        trim: [0.16, 0.17, 0.18],
+        share: [0.84, 0.92],
+        bay_m: [5.0, 6.5],
+        storey_m: [9.0, 12.0],
+        sill: [[0.70, 0.74], [0.82, 0.86]],
+        reveal_m: 0.05,
+        ledge: 0.0,
+        mullion: false,
+        shops: 0.0,
+        door: [0.3, 1.9, 4.2],
+        age: [0.1, 0.6],
+        ..COMMON
+    },
+    // Tanks: rings of plates.
+    Family {
+        walls: &[[0.60, 0.60, 0.58], [0.52, 0.53, 0.54], [0.44, 0.46, 0.46]],
+        trim: [0.40, 0.41, 0.42],
+        share: [0.0, 0.0],
+        storey_m: [2.2, 2.6],
+        reveal_m: 0.0,
+        ledge: 0.0,
+        joint: 0.3,
+        mullion: false,
+        shops: 0.0,
+        door: [0.0, 0.0, 0.0],
+        age: [0.2, 0.8],
+        ..COMMON
+    },
 ];
 
-/// Families by height: low houses, houses of a street, towers.
+/// Families of homes, of higher houses below a pitched roof, of halls and of tanks.
+const HOME: [usize; 4] = [12, 2, 4, 1];
+const ROOFED: [usize; 4] = [2, 1, 4, 0];
+const HALL: [usize; 4] = [13, 13, 11, 3];
+const TANK: [usize; 1] = [14];
+/// Share of the shops of a family that its homes have.
+const SHOPS_OF_HOMES: f32 = 0.12;
+/// Families of blocks by height: low ones, those of a street, towers.
 const LOW: [usize; 6] = [12, 2, 1, 4, 11, 10];
 const STREET: [usize; 10] = [2, 1, 0, 4, 9, 5, 3, 6, 10, 8];
 const TALL: [usize; 7] = [6, 8, 5, 9, 7, 10, 8];
 
 impl Family {
-    /// The family of a house: of those of its height, a town prefers some.
-    pub fn of(seed: u32, town: u32, height_m: f32) -> &'static Self {
-        let kinds: &[usize] = match height_m {
-            h if h < 7.5 => &LOW,
-            h if h < 20.0 => &STREET,
-            _ => &TALL,
+    /// The family of a house: of those of its form and height, a town prefers some.
+    pub fn of(seed: u32, town: u32, (form, height_m): (BuildingForm, f32)) -> &'static Self {
+        let kinds: &[usize] = match form {
+            BuildingForm::Home => &HOME,
+            BuildingForm::Roofed => &ROOFED,
+            BuildingForm::Hall => &HALL,
+            BuildingForm::Tank => &TANK,
+            BuildingForm::Block if height_m < 7.5 => &LOW,
+            BuildingForm::Block if height_m < 20.0 => &STREET,
+            BuildingForm::Block => &TALL,
         };
         // Squared: the first of the list, as the town turns it, come most often.
         let drawn = draw(seed, draws::FAMILY);
         let place = (drawn * (0.35 + 0.65 * drawn) * kinds.len() as f32) as usize;
         let turned = place + (hash(town, kinds.len() as u32) % 3) as usize;
         &FAMILIES[kinds[turned % kinds.len()]]
+    }
+
+    /// Whether a house of a form has shops at the street.
+    pub fn has_shops(&self, seed: u32, form: BuildingForm) -> bool {
+        let share = if form == BuildingForm::Home { SHOPS_OF_HOMES } else { 1.0 };
+        draw(seed, draws::SHOPS) < share * self.shops
     }
 
     /// Colour of the wall and of what frames it.
@@ -302,7 +354,8 @@ mod tests {
     fn towns_mix_many_families_and_differ() {
         let met = |town: u32| -> BTreeSet<usize> {
             let heights = [5.0, 12.0, 30.0];
-            let families = (0..900).map(|seed| Family::of(hash(seed, 7), town, heights[seed as usize % 3]));
+            let families =
+                (0..900).map(|seed| Family::of(hash(seed, 7), town, (BuildingForm::Block, heights[seed as usize % 3])));
             families.map(|family| core::ptr::from_ref(family) as usize).collect()
         };
         assert!(met(1).len() >= 10, "{}", met(1).len());

@@ -69,6 +69,8 @@ pub struct Roof {
     tone: Vec3,
     /// 1 where plants grow on it.
     planted: f32,
+    /// Share of the squares of its grid that have a thing.
+    things: f32,
     shift: f32,
     center: Vec3,
     axes: [Vec3; 2],
@@ -93,7 +95,12 @@ impl Roof {
         let (tone, planted) = (tones[kind], if kind == 5 { 1.0 } else { 0.0 });
         let parapet_m = |side: usize| half_m[side / 2] + if goes_on[side] { FAR_M } else { 0.0 };
         let parapets_m = [0, 1, 2, 3].map(parapet_m);
-        Self { seed, tone, planted, shift: unit(seed) * 99.0, center, axes, half_m, parapets_m }
+        Self { seed, tone, planted, things: 0.30, shift: unit(seed) * 99.0, center, axes, half_m, parapets_m }
+    }
+
+    /// The top of a tank: plain sheet.
+    pub fn of_sheet(self) -> Self {
+        Self { tone: Vec3::new(0.44, 0.43, 0.41), planted: 0.0, things: 0.0, ..self }
     }
 
     /// Colour without patterns.
@@ -147,7 +154,7 @@ impl Roof {
     fn has_thing(&self, point: &SurfacePoint) -> bool {
         let place = self.place(point);
         let inner = least(self.half_m[0] - place[0].abs(), self.half_m[1] - place[1].abs());
-        (unit(self.square(place)) < 0.30) & (inner > 2.8)
+        (unit(self.square(place)) < self.things) & (inner > 2.8)
     }
 
     /// Things on a grid: machines, skylights, chimneys, the house of the stairs, each with its shadow.

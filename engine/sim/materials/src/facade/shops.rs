@@ -68,8 +68,9 @@ impl Facade {
         let bay = along_m * self.bays_per_m;
         let (du, dv) = (point.footprints_m[0] * self.bays_per_m, point.footprints_m[1]);
         let number = floor_int(bay) as u32;
-        let here = one_if(unit(hash(number, self.seed ^ 0xd005)) < 0.16);
-        let (wide, high) = (0.55 * self.bays_per_m, least(2.25, self.floor_m - 0.4));
+        let [doors, half_m, high_m] = self.doors;
+        let here = one_if(unit(hash(number, self.seed ^ 0xd005)) < doors);
+        let (wide, high) = (half_m * self.bays_per_m, least(high_m, self.floor_m - 0.4));
         let door = here * stripes(bay, 0.5 - wide, 0.5 + wide, du) * band(up_m, 0.08, high, dv);
         let framed = here * stripes(bay, 0.5 - 1.3 * wide, 0.5 + 1.3 * wide, du) * band(up_m, 0.0, high + 0.18, dv);
         let colour = self.door;

@@ -2,6 +2,7 @@
 
 use super::draws;
 use super::family::{Family, SIGNS, between, chance};
+use crate::building_form::BuildingForm;
 use crate::parts::SceneBox;
 use crate::pattern::{NoiseLevel, NoiseTexture, Noises, band, draw, hash, one_if, smoothstep, stripes};
 use crate::surface::{Look, SurfacePoint};
@@ -56,14 +57,16 @@ pub struct Facade {
     pub(super) shops: bool,
     /// Whether the wall stands in the street: doors are there.
     pub(super) has_doors: bool,
+    /// Share of the bays with a door, half its width and its height, metres.
+    pub(super) doors: [f32; 3],
     pub(super) height_m: f32,
     pub(super) shift: f32,
 }
 
 impl Facade {
-    /// The facade of a building `seed` in a town on a face of this size; the whole building is `house_m` high.
-    pub fn new(seed: u32, town: u32, face: u32, [width_m, height_m]: [f32; 2], house_m: f32) -> Self {
-        let family = Family::of(seed, town, house_m);
+    /// The facade of a building `seed` in a town on a face of this size; `house` is the form and height of the whole building.
+    pub fn new(seed: u32, town: u32, face: u32, [width_m, height_m]: [f32; 2], house: (BuildingForm, f32)) -> Self {
+        let family = Family::of(seed, town, house);
         let [wall, trim] = family.colours(seed);
         let floors = (height_m / between(family.storey_m, seed, draws::STOREY)).round().max(1.0);
         let bay_m = width_m / (width_m / between(family.bay_m, seed, draws::BAY)).round().max(1.0);
@@ -98,8 +101,9 @@ impl Facade {
             } else {
                 0.0
             },
-            shops: draw(seed, draws::SHOPS) < family.shops && height_m > 5.0,
-            has_doors: true,
+            shops: family.has_shops(seed, house.0) && height_m > 5.0,
+            has_doors: family.door[0] > 0.0,
+            doors: family.door,
             height_m,
             shift: 200.0 * draw(seed, draws::SHIFT),
         }
@@ -108,7 +112,7 @@ impl Facade {
     /// The facade of an upright face of a building's box: of the whole building's kind.
     pub fn of_box(b: &SceneBox, face: usize, half_width_m: f32) -> Self {
         let ([middle, half_whole], half_m) = (b.whole, b.half_extents_m.z);
-        let look = Self::new(b.seed, b.town, face as u32, [2.0 * half_width_m, 2.0 * half_m], 2.0 * half_whole.z);
+        let look = Self::new(b.seed, b.town, face as u32, [2.0 * half_width_m, 2.0 * half_m], house_of(b));
         if half_width_m.min(half_m) < SMALLEST_HALF_M {
             look.bare()
         } else if b.center_in_world.z as f32 - half_m > middle.z - half_whole.z + IN_STREET_M {
@@ -197,6 +201,11 @@ impl Facade {
     }
 }
 
+/// Form and height of the building of a box.
+fn house_of(b: &SceneBox) -> (BuildingForm, f32) {
+    (b.form, 2.0 * b.whole[1].z)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -207,7 +216,7 @@ mod tests {
     #[test]
     fn cloth_behind_walls_of_glass_is_dark() {
         for seed in 0..300 {
-            let facade = Facade::new(seed, 1, 0, [30.0, 40.0], 40.0);
+            let facade = Facade::new(seed, 1, 0, [30.0, 40.0], (BuildingForm::Block, 40.0));
             let is_glass = facade.window[1] - facade.window[0] > 0.8;
             assert_eq!(is_glass, facade.clear < 0.5, "{facade:?}");
         }

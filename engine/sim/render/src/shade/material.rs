@@ -5,6 +5,7 @@ use super::geometry::FaceAxes;
 use super::lighting::Answers;
 use super::skin::Painted;
 use cosfly_domain::{ObstacleKind, SemanticLabel};
+use cosfly_materials::building_form::BuildingForm;
 use cosfly_materials::facade::{BoxFace, Facade, Roof, Tiles};
 use cosfly_materials::lanes::PendingFours;
 use cosfly_materials::light::Light;
@@ -79,7 +80,8 @@ pub(super) fn box_material(b: &SceneBox, face: usize, night: f32) -> Material {
     } else if let Some(material) = roof_material(b, face, (center, axes)) {
         material
     } else if axis == 2 {
-        Material::Roof(Roof::new(b.seed, center, axes, [half.x, half.y], b.roof_goes_on))
+        let roof = Roof::new(b.seed, center, axes, [half.x, half.y], b.roof_goes_on);
+        Material::Roof(if b.form == BuildingForm::Tank { roof.of_sheet() } else { roof })
     } else {
         let half_width = if axis == 0 { half.y } else { half.x };
         let look = Facade::of_box(b, face, half_width);
@@ -103,7 +105,8 @@ fn roof_material(b: &SceneBox, face: usize, (center, axes): (Vec3, [Vec3; 2])) -
             let half_width = if axis == 0 { b.half_extents_m.y } else { b.half_extents_m.x };
             let [foot_m, height_m] = step.wall_m.map(|value| value as f32);
             let look =
-                Facade::new(b.seed, b.town, face as u32, [2.0 * half_width, height_m], 2.0 * b.whole[1].z).bare();
+                Facade::new(b.seed, b.town, face as u32, [2.0 * half_width, height_m], (b.form, 2.0 * b.whole[1].z))
+                    .bare();
             let along = axes[usize::from(axis == 0)];
             let edge_m = center.dot(along) - half_width;
             Some(Material::Facade(look, BoxFace { along, edge_m, foot_m }))
