@@ -3,7 +3,7 @@
 use super::model::{Model, SHEET_M};
 use super::shapes::{CARS, Section, Shape, VANS};
 use super::shell::{MOST_SECTIONS, POINTS, Shell};
-use super::wheels::{Axle, turn_rad};
+use super::wheels::{Axle, Rim, turn_rad};
 use crate::region::Region;
 use cosfly_domain::BodyKind;
 use cosfly_frames::{DVec3, RandomStream};
@@ -42,13 +42,13 @@ pub(super) fn car(model: &mut Model<'_>, shape: &Shape, phase_rad: f64, looks: &
         model.hull(Region::Paint, &fin, [0.012, 0.006]);
     }
     ends(model, shape);
-    mirrors(model, shape);
+    mirrors(model, shape, 0.14, Region::Paint);
     let radius_m = shape.wheel * model.size_m.z;
-    let turn_rad = turn_rad(phase_rad, model.size_m.z, radius_m);
+    let rim = Rim::Open(turn_rad(phase_rad, model.size_m.z, radius_m));
     for x in shape.axles {
         let arch_from_m = Some(shape.foot * model.size_m.z);
         let (x_m, half_width_m) = (x * model.size_m.x, (shape.sheet + 0.014) * model.size_m.y);
-        model.axle(&Axle { x_m, half_width_m, radius_m, arch_from_m, turn_rad });
+        model.axle(&Axle { x_m, half_width_m, radius_m, arch_from_m, rim });
     }
 }
 
@@ -143,12 +143,13 @@ pub(super) fn skirt(shape: &Shape) -> f64 {
     shape.foot + end_rise(-1.0) + 0.065
 }
 
-/// Mirrors beside the windscreen.
-pub(super) fn mirrors(model: &mut Model<'_>, shape: &Shape) {
+/// Mirrors beside the windscreen, of a height in metres.
+pub(super) fn mirrors(model: &mut Model<'_>, shape: &Shape, tall_m: f64, region: Region) {
     let Some(cowl) = cowl(shape) else { return };
     let size_m = model.size_m;
     let back_m = cowl.x * size_m.x - 0.42;
-    let (low_m, high_m) = (cowl.shoulder * size_m.z + 0.01, cowl.shoulder * size_m.z + 0.15);
+    let low_m = cowl.shoulder * size_m.z + 0.01;
+    let high_m = low_m + tall_m;
     for sign in [-1.0, 1.0] {
         let at = |x_m: f64, y: f64, z_m: f64| DVec3::new(x_m, sign * y * size_m.y, z_m);
         let (inner, outer) = (0.44, 0.5);
@@ -157,9 +158,9 @@ pub(super) fn mirrors(model: &mut Model<'_>, shape: &Shape) {
         let front = rear.map(|point| point + DVec3::X * 0.12);
         let inside = 0.5 * (rear[0] + front[2]);
         model.face(Region::Trim, &rear, inside);
-        model.face(Region::Paint, &front, inside);
+        model.face(region, &front, inside);
         for k in 0..3 {
-            model.face(Region::Paint, &[rear[k], rear[k + 1], front[k + 1], front[k]], inside);
+            model.face(region, &[rear[k], rear[k + 1], front[k + 1], front[k]], inside);
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::cars::{mirrors, shell};
 use super::model::Model;
 use super::shapes::{LARGE, STRAIGHT, Shape, deck, roof};
-use super::wheels::{Axle, turn_rad};
+use super::wheels::{Axle, Rim};
 use crate::region::Region;
 use Region::{Glass as G, Paint as P, TailLamp as R, Trim as T};
 use cosfly_frames::RandomStream;
@@ -65,16 +65,20 @@ const COACH: Shape = Shape {
 };
 
 /// A city bus or a coach.
-pub(super) fn bus(model: &mut Model<'_>, phase_rad: f64, looks: &mut RandomStream) {
+pub(super) fn bus(model: &mut Model<'_>, looks: &mut RandomStream) {
     let is_city = looks.chance(0.65);
     let shape = if is_city { &CITY } else { &COACH };
     shell(model, shape).draw(model);
-    mirrors(model, shape);
+    mirrors(model, shape, 0.42, T);
     lamps(model, [0.17, 0.23], [0.24, 0.34]);
     if is_city {
-        for door in [-0.02, 0.40] {
-            let to = door + 0.075;
-            model.side_panel(G, &[[door, 0.12], [to, 0.12], [to, 0.40], [door, 0.40]], STRAIGHT, 1.0);
+        destination(model, shape, looks);
+        // Doors of two leaves.
+        for door in [-0.41, -0.045, 0.375] {
+            for leaf in [door, door + 0.052] {
+                let to = leaf + 0.048;
+                model.side_panel(G, &[[leaf, 0.11], [to, 0.11], [to, 0.41], [leaf, 0.41]], STRAIGHT, 1.0);
+            }
         }
         // Air is cooled on the roof.
         for [from, to] in [[-0.36, -0.20], [0.08, 0.22]] {
@@ -82,16 +86,27 @@ pub(super) fn bus(model: &mut Model<'_>, phase_rad: f64, looks: &mut RandomStrea
             model.hull(Region::Cargo, &pod, [0.34, 0.34]);
         }
         model.cross_panel(T, [[-0.5, 0.40], [-0.5, 0.44]], [-0.6, 0.6], STRAIGHT);
-        axles(model, shape.wheel, &shape.axles, phase_rad);
+        axles(model, shape.wheel, &shape.axles);
     } else {
         for x in [-0.14, 0.04] {
             let lid = [[x, 0.14], [x + 0.16, 0.14], [x + 0.16, 0.145], [x, 0.145]];
             model.side_panels(T, &lid, STRAIGHT);
         }
         let [rear, front] = shape.axles;
-        axles(model, shape.wheel, &[rear - 0.115, rear, front], phase_rad);
+        axles(model, shape.wheel, &[rear - 0.115, rear, front]);
     }
     model.cross_panel(G, [[-0.5, 0.56], [-0.5, 0.84]], [-0.85, 0.85], STRAIGHT);
+}
+
+/// The lit number and the name of where a bus goes, above the windscreen.
+fn destination(model: &mut Model<'_>, shape: &Shape, looks: &mut RandomStream) {
+    let top = shape.sections.iter().rfind(|section| section.roofed).map_or(0.9, |section| section.top - shape.drop);
+    let heights = [[0.5, top - 0.07], [0.5, top]];
+    model.cross_panel(T, [[0.5, top - 0.085], [0.5, top + 0.015]], [-0.78, 0.78], STRAIGHT);
+    let name = 0.1 + 0.5 * looks.unit();
+    for ys in [[-0.70, -0.60], [-0.57, -0.47], [-0.25, name - 0.2], [name - 0.14, name]] {
+        model.cross_panel(Region::HeadLamp, heights, ys, STRAIGHT);
+    }
 }
 
 /// Lamps at both ends between two heights each, and the number plates.
@@ -106,12 +121,11 @@ pub(super) fn lamps(model: &mut Model<'_>, front: [f64; 2], rear: [f64; 2]) {
 }
 
 /// Axles at shares of the length, with wheels of a share of the height.
-pub(super) fn axles(model: &mut Model<'_>, wheel: f64, places: &[f64], phase_rad: f64) {
+pub(super) fn axles(model: &mut Model<'_>, wheel: f64, places: &[f64]) {
     let radius_m = wheel * model.size_m.z;
-    let turn_rad = turn_rad(phase_rad, model.size_m.z, radius_m);
     let arch_from_m = Some(0.10 * model.size_m.z);
     for x in places {
         let (x_m, half_width_m) = (x * model.size_m.x, 0.5 * model.size_m.y);
-        model.axle(&Axle { x_m, half_width_m, radius_m, arch_from_m, turn_rad });
+        model.axle(&Axle { x_m, half_width_m, radius_m, arch_from_m, rim: Rim::Plate });
     }
 }

@@ -82,7 +82,11 @@ impl Sign {
             BodyKind::Van if is_signed && !has_panes => {
                 Self { word: [-0.40, looks.uniform(-0.12, 0.04)], heights: [0.58, 0.74], ..bare }
             }
-            BodyKind::Bus => Self { band: [0.13, looks.uniform(0.24, 0.36)], ..bare },
+            // Half of them are painted up to the windows.
+            BodyKind::Bus => {
+                let top = if looks.chance(0.5) { 0.42 } else { looks.uniform(0.24, 0.36) };
+                Self { band: [0.10, top], ..bare }
+            }
             _ => Self::NONE,
         }
     }

@@ -33,18 +33,30 @@ const CAB_SECTIONS: &[Section] = &[
 ];
 
 /// A lorry of one of three kinds.
-pub(super) fn lorry(model: &mut Model<'_>, phase_rad: f64, looks: &mut RandomStream) {
+pub(super) fn lorry(model: &mut Model<'_>, looks: &mut RandomStream) {
     shell(model, &CAB).draw(model);
-    mirrors(model, &CAB);
+    mirrors(model, &CAB, 0.40, T);
     model.hull(T, &[[-0.47, 0.14], [0.30, 0.14], [0.30, 0.285], [-0.47, 0.285]], [0.32, 0.32]);
     lamps(model, [0.17, 0.23], [0.29, 0.33]);
     model.cross_panel(T, [[0.5, 0.245], [0.5, 0.34]], [-0.62, 0.62], STRAIGHT);
-    match looks.index(10) {
-        0..=5 => boxed(model),
-        6..=7 => tipper(model),
-        _ => tanker(model),
-    }
-    axles(model, CAB.wheel, &[-0.36, -0.22, CAB.axles[1]], phase_rad);
+    let [rear, front] = CAB.axles;
+    let two = [rear + 0.05, front];
+    let three = [rear - 0.06, rear + 0.08, front];
+    let places: &[f64] = match looks.index(10) {
+        0..=5 => {
+            boxed(model);
+            &two
+        }
+        6..=7 => {
+            tipper(model);
+            &three
+        }
+        _ => {
+            tanker(model);
+            &two
+        }
+    };
+    axles(model, CAB.wheel, places);
 }
 
 /// A box with dark edges, and a shield above the cab.

@@ -11,6 +11,19 @@ const RIM: f64 = 0.68;
 /// Dark openings between the spokes of a rim.
 const OPENINGS: usize = 5;
 
+/// Radii of the discs of a large wheel, from the rim inwards, in radii of the wheel, and their materials: a plate of steel in whose
+/// middle the hub stands.
+const PLATE: [(f64, Region); 3] = [(0.56, Region::Metal), (0.46, Region::Trim), (0.26, Region::Metal)];
+
+/// What is seen within a tyre.
+#[derive(Clone, Copy)]
+pub(super) enum Rim {
+    /// A rim with openings, at this turn, radians.
+    Open(f64),
+    /// The plate of a lorry or bus.
+    Plate,
+}
+
 /// Wheels of an axle.
 #[derive(Clone, Copy)]
 pub(super) struct Axle {
@@ -21,8 +34,7 @@ pub(super) struct Axle {
     pub radius_m: f64,
     /// Lowest edge of the sheet beside it, metres; no arch where there is none.
     pub arch_from_m: Option<f64>,
-    /// Turn of its wheels, radians.
-    pub turn_rad: f64,
+    pub rim: Rim,
 }
 
 /// Turn of wheels with openings, radians, that goes on where the phase of a gait of `height_m` does.
@@ -34,7 +46,7 @@ pub(super) fn turn_rad(phase_rad: f64, height_m: f64, radius_m: f64) -> f64 {
 impl Model<'_> {
     /// A wheel on either side.
     pub fn axle(&mut self, axle: &Axle) {
-        let Axle { x_m, half_width_m: outer_m, radius_m, turn_rad, .. } = *axle;
+        let Axle { x_m, half_width_m: outer_m, radius_m, rim: kind, .. } = *axle;
         for sign in [-1.0, 1.0] {
             let at = |share: f64, in_m: f64| rim(x_m, radius_m, share, sign * (outer_m - in_m));
             let inside = DVec3::new(x_m, 0.0, radius_m);
@@ -55,6 +67,15 @@ impl Model<'_> {
                 self.face(Region::Tyre, &[near[k], near[next], far[next], far[k]], beside);
             }
             self.face(Region::Tyre, &near, inside);
+            let turn_rad = match kind {
+                Rim::Open(turn_rad) => turn_rad,
+                Rim::Plate => {
+                    for ((share, region), in_m) in PLATE.into_iter().zip([0.006, 0.003, 0.0]) {
+                        self.face(region, &at(share, in_m), inside);
+                    }
+                    continue;
+                }
+            };
             self.face(Region::Metal, &at(RIM, 0.005), inside);
             for opening in 0..OPENINGS {
                 let corner = |turn: f64, share: f64| {
