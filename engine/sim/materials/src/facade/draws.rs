@@ -23,6 +23,9 @@ pub const FLAT_ROOF: u32 = 20;
 pub const TILES: u32 = 21;
 pub const TILES_AGAIN: u32 = 22;
 pub const TILES_BRIGHTNESS: u32 = 23;
+/// Share of places for windows in a pitched roof that have one; whether panels for sunlight lie on it.
+pub const ROOF_WINDOWS: u32 = 24;
+pub const PANELS: u32 = 25;
 
 /// Draws of a window: its curtains and how far they hang, how its pane leans, whether it is lit at night, the warmth of its light.
 pub const CURTAINS: u32 = 3;

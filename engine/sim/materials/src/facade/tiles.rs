@@ -2,7 +2,8 @@
 
 use super::draws;
 use crate::lanes::{Block, Shared, WIDE, get, groups, set};
-use crate::pattern::{NoiseTexture, Noises, draw, hash, lerp, one_if, stripes, unit};
+use crate::parts::SceneBox;
+use crate::pattern::{NoiseTexture, Noises, band, draw, floor_int, hash, lerp, most, one_if, share, stripes, unit};
 use crate::roof_step::{RoofPitch, TopSlope};
 use crate::surface::{Look, SurfacePoint};
 use crate::vector::Vec3;
@@ -21,6 +22,20 @@ const TONES: [Vec3; 6] = [
     Vec3::new(0.15, 0.15, 0.165),
     Vec3::new(0.22, 0.21, 0.20),
 ];
+
+/// Places for windows in a roof, per metre along the eaves; half the width and length of a window, width of its frame, metres.
+const WINDOWS_PER_M: f32 = 1.0 / 3.1;
+const WINDOW_M: [f32; 2] = [0.42, 0.62];
+const FRAME_M: f32 = 0.07;
+/// Nothing lies nearer to the ends of a slope, metres.
+const EDGE_M: f32 = 1.3;
+/// The lowest roof with windows, metres.
+const LEAST_RISE_M: f32 = 2.2;
+/// Width and length of a panel for sunlight, metres.
+const PANEL_M: [f32; 2] = [1.05, 1.72];
+const PANE: Vec3 = Vec3::new(0.085, 0.11, 0.14);
+const FRAME: Vec3 = Vec3::new(0.045, 0.045, 0.05);
+const PANEL: Vec3 = Vec3::new(0.016, 0.020, 0.034);
 
 simd_kernel! {
     /// Moves places on steps to above all steps, where the sun's light on the slope is that of its surroundings.
@@ -60,6 +75,15 @@ pub struct Tiles {
     /// Direction in which an upright face falls; zero for upper faces.
     outward: Vec3,
     pitch: RoofPitch,
+    /// The building's seed; middle of the box and half its size, heights of the eaves and of the ridge above them, metres.
+    seed: u32,
+    middle: Vec3,
+    half_m: [f32; 2],
+    eaves_m: f32,
+    rise_m: f32,
+    /// Share of the places that have a window, and of panels for sunlight on the slopes towards the noon.
+    windows: f32,
+    panels: f32,
 }
 
 impl Tiles {
@@ -76,7 +100,78 @@ impl Tiles {
         let turned = place + (hash(town, draws::TILES) % TONES.len() as u32) as usize;
         let tone = TONES[turned % TONES.len()] * (0.85 + 0.3 * draw(seed, draws::TILES_BRIGHTNESS));
         let axes = [Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0)];
-        Self { tone, shift: unit(seed) * 99.0, center: Vec3::ZERO, axes, above_m: [0.0; 4], outward, pitch }
+        Self {
+            tone,
+            shift: unit(seed) * 99.0,
+            center: Vec3::ZERO,
+            axes,
+            above_m: [0.0; 4],
+            outward,
+            pitch,
+            seed,
+            middle: Vec3::ZERO,
+            half_m: [0.0; 2],
+            eaves_m: 0.0,
+            rise_m: 0.0,
+            windows: 0.0,
+            panels: 0.0,
+        }
+    }
+
+    /// The face as part of a whole roof above a wall: windows and panels have their places on it.
+    pub fn of_roof(self, b: &SceneBox, wall_m: [f64; 2]) -> Self {
+        let eaves_m = (wall_m[0] + wall_m[1]) as f32;
+        let rise_m = b.whole[0].z + b.whole[1].z - eaves_m;
+        let (has_room, drawn) = (one_if(rise_m > LEAST_RISE_M), draw(self.seed, draws::ROOF_WINDOWS));
+        Self {
+            axes: b.axes_in_world.map(Vec3::from),
+            middle: b.center_in_world.into(),
+            half_m: [b.half_extents_m.x, b.half_extents_m.y],
+            eaves_m,
+            rise_m,
+            // Four of ten roofs have none.
+            windows: has_room * most(drawn - 0.4, 0.0),
+            panels: has_room * one_if(draw(self.seed, draws::PANELS) < 0.12),
+            ..self
+        }
+    }
+
+    /// Windows and panels on the tiles: their colour and share of a pixel. `aside` is the place along the eaves, metres.
+    #[inline(always)]
+    fn openings(&self, point: &SurfacePoint, falls: Vec3, aside: f32) -> (Vec3, f32) {
+        let size = point.footprint_m;
+        let along = Vec3::new(falls.y, -falls.x, 0.0);
+        let [x, y] = self.axes.map(|axis| axis.dot(along).abs());
+        let (middle, reach) = (self.middle.dot(along), x * self.half_m[0] + y * self.half_m[1] - EDGE_M);
+        let up_m = (point.world.z - self.eaves_m) / most(self.pitch[0], 0.1);
+        let length_m = self.rise_m / most(self.pitch[0], 0.1);
+        // A row of windows, below the middle of the slope.
+        let number = floor_int(aside * WINDOWS_PER_M);
+        let place = (number as f32 + 0.5) / WINDOWS_PER_M;
+        let is_inside = one_if((place - middle).abs() + WINDOW_M[0] < reach);
+        let bits = hash(number as u32, self.seed ^ one_if(falls.x + 0.3 * falls.y > 0.0).to_bits());
+        let has = is_inside * one_if(unit(bits) < self.windows);
+        let (u, v) = (aside - place, up_m - 0.46 * length_m);
+        let within = |inset_m: f32| {
+            let [wide_m, long_m] = WINDOW_M.map(|half_m| half_m - inset_m);
+            band(u, -wide_m, wide_m, size) * band(v, -long_m, long_m, size)
+        };
+        let window = has * within(0.0);
+        let colour = FRAME.lerp(PANE, within(FRAME_M));
+        // A field of panels.
+        let noon = one_if(0.6 * falls.x + 0.8 * falls.y > 0.0);
+        let whole = floor_int(reach * (1.0 / PANEL_M[0])) as f32 * PANEL_M[0];
+        let field = self.panels
+            * noon
+            * band(aside - middle, -whole, whole, size)
+            * band(up_m, 0.18 * length_m, 0.18 * length_m + 2.0 * PANEL_M[1], size)
+            * one_if(0.82 * length_m > 0.18 * length_m + 2.0 * PANEL_M[1]);
+        let gap = most(
+            stripes((aside - middle) / PANEL_M[0], 0.0, 0.04, size / PANEL_M[0]),
+            stripes((up_m - 0.18 * length_m) / PANEL_M[1], 0.0, 0.03, size / PANEL_M[1]),
+        );
+        let panel = PANEL.lerp(Vec3::splat(0.16), gap);
+        (colour.lerp(panel, field), share(window + field))
     }
 
     /// Colour without patterns.
@@ -113,6 +208,8 @@ impl Tiles {
         let albedo = self.tone * ((0.62 + 0.42 * rough + 0.34 * patch) * (1.0 - 0.34 * shade) * (1.0 - 0.14 * joint));
         let moss = lerp(0.0, 0.30, one_if(patch > 0.66));
         let albedo = albedo.lerp(Vec3::new(0.10, 0.11, 0.06), moss);
+        let (colour, opening) = self.openings(point, falls, aside);
+        let albedo = albedo.lerp(colour, opening);
         Look::matt(albedo, Vec3::new(falls.x * sine, falls.y * sine, cosine))
     }
 }

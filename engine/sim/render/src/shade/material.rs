@@ -96,11 +96,15 @@ fn roof_material(b: &SceneBox, face: usize, (center, axes): (Vec3, [Vec3; 2])) -
     let (axis, sign, _) = BOX_FACES[face];
     if axis == 2 {
         let slope = step.top.filter(|_| sign > 0.0)?;
-        return Some(Material::Tiles(Tiles::top(b.seed, b.town, center, axes, &slope)));
+        let tiles = Tiles::top(b.seed, b.town, center, axes, &slope);
+        return Some(Material::Tiles(tiles.of_roof(b, step.wall_m)));
     }
     match step.sides[face] {
         FaceLook::Wall => None,
-        FaceLook::Slope(pitch) => Some(Material::Tiles(Tiles::side(b.seed, b.town, axes[axis] * sign as f32, pitch))),
+        FaceLook::Slope(pitch) => {
+            let tiles = Tiles::side(b.seed, b.town, axes[axis] * sign as f32, pitch);
+            Some(Material::Tiles(tiles.of_roof(b, step.wall_m)))
+        }
         FaceLook::Gable => {
             let half_width = if axis == 0 { b.half_extents_m.y } else { b.half_extents_m.x };
             let [foot_m, height_m] = step.wall_m.map(|value| value as f32);
