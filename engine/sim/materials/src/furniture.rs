@@ -1,4 +1,4 @@
-//! Benches and market stalls, drawn of parts that lie within their boxes.
+//! Benches, market stalls and hedges, drawn of parts that lie within their boxes.
 
 use crate::parts::{BOX_FACES, SceneBox};
 use cosfly_domain::ObstacleKind;
@@ -18,10 +18,15 @@ const GAP_M: f64 = 0.04;
 /// Height of the cloth that hangs from an awning, and of the awning, metres.
 const CLOTH_M: f64 = 0.2;
 const AWNING_M: f64 = 0.45;
+/// A bush that is so many times as long as deep is a hedge, and the length of each of its shrubs, in the greater of depth and height.
+const HEDGE: f64 = 3.0;
+const SHRUB: f64 = 1.2;
+/// Most shrubs of a hedge.
+const MOST_SHRUBS: f64 = 60.0;
 
-/// Draws all boxes of benches and stalls as such; those of other sizes stay boxes.
+/// Draws all boxes of benches, stalls and hedges as such; those of other sizes stay boxes.
 pub fn furnish(boxes: &mut Vec<SceneBox>) {
-    if !boxes.iter().any(|b| matches!(b.kind, ObstacleKind::Bench | ObstacleKind::Stall)) {
+    if !boxes.iter().any(|b| matches!(b.kind, ObstacleKind::Bench | ObstacleKind::Stall | ObstacleKind::Bush)) {
         return;
     }
     let parts = |b: SceneBox| {
@@ -29,6 +34,7 @@ pub fn furnish(boxes: &mut Vec<SceneBox>) {
         match b.kind {
             ObstacleKind::Bench if plan.is_within(BENCH_M) => plan.bench(),
             ObstacleKind::Stall if plan.is_within(STALL_M) => plan.stall(),
+            ObstacleKind::Bush if plan.size_m.x >= HEDGE * plan.size_m.y => plan.hedge(),
             _ => vec![b],
         }
     };
@@ -71,6 +77,19 @@ impl<'a> Plan<'a> {
             self.part(ObstacleKind::Pole, [0.12 * length, back, 0.0], [0.12 * length + BOARD_M, depth, 0.66 * height]),
             self.part(ObstacleKind::Pole, [0.88 * length - BOARD_M, back, 0.0], [0.88 * length, depth, 0.66 * height]),
         ]
+    }
+
+    /// Shrubs in a row: leaves on a round crown as long as a hedge would be drawn out to streaks.
+    fn hedge(&self) -> Vec<SceneBox> {
+        let DVec3 { x: length, y: depth, z: height } = self.size_m;
+        let count = (length / (SHRUB * depth.max(height))).round().clamp(1.0, MOST_SHRUBS);
+        let shrub = |number: u32| {
+            let [from, to] = [number, number + 1].map(|end| length * f64::from(end) / count);
+            let mut shrub = self.part(ObstacleKind::Bush, [from, 0.0, 0.0], [to, depth, height]);
+            shrub.whole = [shrub.center_in_world, shrub.half_bounds_m].map(|v| v.as_vec3a());
+            shrub
+        };
+        (0..count as u32).map(shrub).collect()
     }
 
     /// An awning with a ridge on four posts, under it a table with crates.
@@ -162,6 +181,7 @@ mod tests {
             (ObstacleKind::Bench, [0.5, 1.8, 0.8]),
             (ObstacleKind::Stall, [3.2, 2.0, 2.4]),
             (ObstacleKind::Stall, [2.2, 3.2, 2.5]),
+            (ObstacleKind::Bush, [12.0, 0.8, 1.5]),
         ] {
             let (whole, parts) = drawn(kind, size_m);
             assert!(parts.len() > 4, "{kind:?}");
@@ -193,6 +213,7 @@ mod tests {
             (ObstacleKind::Bench, [12.0, 0.6, 0.8]),
             (ObstacleKind::Stall, [3.0, 2.0, 1.0]),
             (ObstacleKind::Static, [1.8, 0.6, 0.8]),
+            (ObstacleKind::Bush, [2.0, 0.8, 1.5]),
         ] {
             assert_eq!(drawn(kind, size_m).1.len(), 1, "{kind:?}");
         }

@@ -5,7 +5,9 @@
 use super::lanes::{
     Block, EMPTY_ROW, FOUR, PendingFours, Shared, StageRow, WIDE, get, groups, set, three_of, write_row, write_three,
 };
-use super::pattern::{NoiseLevel, NoiseTexture, Noises, draw, least, lerp, most, one_if, share, smoothstep, unit};
+use super::pattern::{
+    NoiseLevel, NoiseTexture, Noises, draw, hash, least, lerp, most, one_if, share, smoothstep, unit,
+};
 use super::surface::{Look, SurfacePoint};
 use super::vector::Vec3;
 use crate::parts::SceneBox;
@@ -92,6 +94,8 @@ impl Leaves {
         let is_evergreen = species == EVERGREEN || (b.kind == ObstacleKind::Bush && draw(seed, 11) < EVERGREEN_BUSHES);
         let look = season::row(season);
         let is_bare = look.is_bare && !is_evergreen;
+        // Shrubs of a hedge share a seed, and differ.
+        let place = if b.kind == ObstacleKind::Bush { middle.x.to_bits() ^ middle.y.to_bits() } else { 0 };
         let leaves = match look.turned {
             _ if is_bare => twigs(seed),
             // Trees of a town turn one after the other.
@@ -104,7 +108,7 @@ impl Leaves {
             shrink: half.map(|half| 1.0 / half.max(0.1)),
             tint: leaves * (0.8 + 0.45 * draw(seed, 1)),
             through: if is_bare { 0.0 } else { 1.0 },
-            shift: 37.0 * unit(seed),
+            shift: 37.0 * unit(if place == 0 { seed } else { hash(seed, place) }),
         })
     }
 
@@ -125,7 +129,7 @@ impl Leaves {
 }
 
 /// The round crown that leaves are drawn on; corners of boxes stand out of it.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LeafCrown {
     /// Middle, metres.
     pub middle: Vec3,

@@ -39,9 +39,11 @@ const TOGETHER: usize = 256;
 /// Notes the pixels of a run that shows a crown; neighbours of one crown become one span.
 pub(super) fn note(seen: &Seen<'_>, run: &Run, width: usize, crowns: &mut Vec<CrownSpan>) {
     let (Some(leaves), Some(face)) = (crown_of(seen, run.face), seen.faces.get(run.face as usize)) else { return };
+    let outline = leaves.outline();
     if let Some(last) = crowns.last_mut()
         && last.start + last.length == run.start
         && last.instance == face.instance
+        && last.outline == outline
         && !(run.start as usize).is_multiple_of(width)
     {
         last.length += run.length;
@@ -50,14 +52,7 @@ pub(super) fn note(seen: &Seen<'_>, run: &Run, width: usize, crowns: &mut Vec<Cr
     let is_bare = leaves.is_bare();
     let (reach_m, reach_share) = if is_bare { (BARE_REACH_M, BARE_REACH_SHARE) } else { (REACH_M, REACH_SHARE) };
     let reach_m = reach_m.min(reach_share * leaves.half_width_m());
-    crowns.push(CrownSpan {
-        start: run.start,
-        length: run.length,
-        instance: face.instance,
-        reach_m,
-        is_bare,
-        outline: leaves.outline(),
-    });
+    crowns.push(CrownSpan { start: run.start, length: run.length, instance: face.instance, reach_m, is_bare, outline });
 }
 
 /// Buffers of the pass.
