@@ -1,12 +1,14 @@
 //! Materials of towns, as pictures show them: walls, roofs, ground, leaves and things, each drawn from a seed, and the
 //! light on them. No camera and no picture: a material is a kernel that answers for sixteen points at a time.
 //!
-//! [`parts`] are the boxes and ground of a town that carry materials; [`building_form`] tells homes from halls and tanks; [`roof_steps`] and [`roof_edges`] say which of their
+//! [`parts`] are the boxes and ground of a town that carry materials; [`building_forms`] tells homes from halls and tanks;
+//! [`roof_steps`] and [`roof_edges`] say which of their
 //! faces make one roof, [`roof_slopes`] cuts pitched ones straight, [`round_crowns`] stacks of boxes round. [`facade`], [`ground`],
 //! [`paving`], [`kerbs`], [`lane_marks`], [`lane_wear`], [`leaves`] and [`things`] are the materials: they read points from [`lanes`] and write looks ([`surface`]). [`light`] is the sun, sky and lamps of a [`weather`]; [`grid`] how much of the sky and of
 //! the lamps each place of a town sees; [`scan_light`] the light of scans. [`season`] turns leaves and lawns.
 
 pub mod building_form;
+pub mod building_forms;
 pub mod drawn_shapes;
 pub mod dry_days;
 pub mod facade;

@@ -10,7 +10,7 @@ use crate::shade::sun_tiles::SunMaps;
 use cosfly_domain::{ObstacleKind, Season, Town};
 use cosfly_figures::{Bystander, Clothes, figure};
 use cosfly_frames::{DVec3, Seed};
-use cosfly_materials::building_form::tell_forms;
+use cosfly_materials::building_forms::tell_forms;
 use cosfly_materials::drawn_shapes::cut_to_drawn;
 use cosfly_materials::grid::LightGrid;
 use cosfly_materials::ground_polygons::{GroundPolygon, GroundPolygons};

@@ -81,7 +81,7 @@ pub struct Tiles {
     half_m: [f32; 2],
     eaves_m: f32,
     rise_m: f32,
-    /// Share of the places that have a window, and of panels for sunlight on the slopes towards the noon.
+    /// Share of the places that have a window, and of panels for sunlight on the southern slopes.
     windows: f32,
     panels: f32,
 }
@@ -159,10 +159,10 @@ impl Tiles {
         let window = has * within(0.0);
         let colour = FRAME.lerp(PANE, within(FRAME_M));
         // A field of panels.
-        let noon = one_if(0.6 * falls.x + 0.8 * falls.y > 0.0);
+        let southern = one_if(0.6 * falls.x + 0.8 * falls.y > 0.0);
         let whole = floor_int(reach * (1.0 / PANEL_M[0])) as f32 * PANEL_M[0];
         let field = self.panels
-            * noon
+            * southern
             * band(aside - middle, -whole, whole, size)
             * band(up_m, 0.18 * length_m, 0.18 * length_m + 2.0 * PANEL_M[1], size)
             * one_if(0.82 * length_m > 0.18 * length_m + 2.0 * PANEL_M[1]);
