@@ -19,7 +19,7 @@ with zipfile.ZipFile(wheel) as files:
     names = set(files.namelist())
     metadata = files.read(next(name for name in names if name.endswith("METADATA"))).decode()
     entries = files.read(next(name for name in names if name.endswith("entry_points.txt"))).decode()
-modules = {"__init__", "__main__", "_gym", "gym", "_calls", "_dataset", "_errors", "_expert", "_pack", "_show", "_toml", "jax", "onnx", "torch"}
+modules = {"__init__", "__main__", "gym", "_calls", "_dataset", "_errors", "_expert", "_pack", "_show", "_toml", "jax", "onnx", "torch"}
 assert {f"cosfly/{module}.py" for module in modules} | {"cosfly/py.typed", "cosfly/_cosfly.pyi"} <= names, names
 required = [line for line in metadata.splitlines() if line.startswith("Requires-Dist") and "extra ==" not in line]
 assert len(required) == 1 and "numpy" in required[0], required

@@ -11,7 +11,7 @@ from gymnasium.utils.env_checker import check_env  # noqa: E402
 from gymnasium.vector import AutoresetMode  # noqa: E402
 
 import cosfly  # noqa: E402
-import cosfly.gym  # noqa: E402, F401 (registers the environments, as the installed package does by itself)
+import cosfly.gym  # noqa: E402, F401 (registers the environments)
 
 ID = "cosfly/Track-v0"
 ALL = ("state", *cosfly.gym.CHANNELS, *cosfly.gym.SENSORS)

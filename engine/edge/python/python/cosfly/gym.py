@@ -1,4 +1,4 @@
-"""Environments for gymnasium: `gym.make_vec("cosfly/Track-v0", num_envs=64, recipe="recipes/suites/street.toml")`.
+"""Environments for gymnasium: `gym.make_vec("cosfly/Track-v0", num_envs=64, recipe="recipes/suites/street.toml")`, once this is imported.
 
 An environment flies the episodes of a recipe, as `cosfly fly` does; each draws its episodes from a seed of its own: the one that is
 given, else one of the system's entropy, which `info["seed"]` and `np_random_seed` tell so that a run can be repeated.
@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, Sequence
 import gymnasium
 import numpy as np
 from gymnasium import spaces
+from gymnasium.envs.registration import register, registry
 from gymnasium.error import ResetNeeded
 from gymnasium.utils import seeding
 from gymnasium.vector import AutoresetMode, VectorEnv
@@ -27,13 +28,13 @@ from . import _cosfly
 from ._cosfly import VectorEnvironment
 from ._env_config import CHANNELS, OBSERVATIONS, SENSORS, EnvConfig
 from ._errors import InvalidValue
-from ._gym import register
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._env_config import EnvOptions
 
+ID = "cosfly/Track-v0"
 STATE: tuple[str, ...] = tuple(_cosfly.STATE)
 """Names of the numbers of `state`, each with its unit; vectors are along the heading of the camera."""
 ACTION: tuple[str, ...] = tuple(_cosfly.ACTION)
@@ -312,4 +313,5 @@ class Track(gymnasium.Env):
         return self._flock.planned_steps(0)
 
 
-register()
+if ID not in registry:
+    register(id=ID, entry_point="cosfly.gym:Track", vector_entry_point="cosfly.gym:TrackVector")
