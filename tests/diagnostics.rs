@@ -43,6 +43,7 @@ fn recipe_mistakes_point_at_the_place_and_name_the_way_out() {
     check_recipe("not_a_number", "seed = 3", "seed = nan");
     check_recipe("town_name", "source", "name = \"Zürich\"\nsource");
     check_recipe("map_foreign_option", "source", "options = { terrain_margin_m = 20 }\nsource");
+    check_recipe("map_option_of_several", "source", "options = { voxel_m = 1 }\nsource");
     check_recipe("map_former_option", "source", "road_marks = false\nsource");
 }
 

@@ -27,12 +27,15 @@ pub fn schema() -> Value {
 fn named_schema(format: &Format) -> Value {
     let mut schema = format.schema();
     for (name, option) in schema["properties"].as_object_mut().into_iter().flatten() {
-        let owners: Vec<&str> =
-            FORMATS.iter().filter(|one| one.option_names().contains(name)).map(Format::name).collect();
         let description = option["description"].as_str().unwrap_or_default();
-        option["description"] = format!("{}: {description}", owners.join(", ")).into();
+        option["description"] = format!("{}: {description}", owners(name).join(", ")).into();
     }
     schema
+}
+
+/// Names of the formats that have an option.
+fn owners(name: &str) -> Vec<&'static str> {
+    FORMATS.iter().filter(|one| one.option_names().iter().any(|its| its == name)).map(Format::name).collect()
 }
 
 /// Options for keys, with defaults. Those of newer formats are left out at their defaults, so that a new one moves no key.
@@ -55,14 +58,15 @@ pub fn in_keys(options: &FormatOptions) -> Result<Map<String, Value>, MapError> 
 /// Schema that allows all options but those of other formats than `own`, that of `file`.
 pub fn without_foreign(own: &Format, file: &str) -> Value {
     let (mut properties, own_names) = (Map::new(), own.option_names());
-    for foreign in FORMATS.iter().filter(|format| format.name() != own.name()) {
+    for name in FORMATS.iter().flat_map(|format| format.option_names()).filter(|name| !own_names.contains(name)) {
+        let owners = owners(&name);
+        let maps = if owners.len() == 1 { "the format" } else { "one of the formats" };
         let reason = format!(
-            "is an option of maps in the format {}, but `{file}` is in the format {}",
-            foreign.name(),
+            "is an option of maps in {maps} {}, but `{file}` is in the format {}",
+            owners.join(", "),
             own.name()
         );
-        let names = foreign.option_names().into_iter().filter(|name| !own_names.contains(name));
-        properties.extend(names.map(|name| (name, json!({ "not": {}, "description": reason }))));
+        properties.insert(name, json!({ "not": {}, "description": reason }));
     }
     json!({ "properties": { "options": { "properties": properties } } })
 }
