@@ -146,7 +146,7 @@ with tempfile.TemporaryDirectory() as trackers:
 
 A line of `gt.txt` is a body in a picture: picture, id, box, whether it counts, class, visibility. Ids are those of the dataset's
 instance images; 1 is the target, who has no line where nobody sees it. Classes are MOTChallenge's: 1 pedestrian, 3 car, van, lorry
-or bus, 4 bicycle with rider, 5 motorcycle with rider, 8 anything else, which does not count. Visibility is the visible share of
-the target's pixels, and -1 (not measured) of the others. `frameRate` may have decimals. There is no `det/det.txt`: detections would
-be those of some detector, and the dataset has none.
+or bus, 4 bicycle or e-scooter with rider, 5 motorcycle with rider, 8 anything else, which does not count. Visibility is the
+visible share of the target's pixels, and -1 (not measured) of the others. `frameRate` may have decimals. There is no `det/det.txt`:
+detections would be those of some detector, and the dataset has none.
 ";
