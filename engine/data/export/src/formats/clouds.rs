@@ -46,21 +46,24 @@ impl Format for Clouds {
     type Options = Options;
 
     fn write(options: &Options, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
-        let (mut number, mut sweeps) = (0, 0);
+        let (mut number, mut lidars, mut sweeps) = (0, 0, 0);
         source.each_flight(&mut |episode| {
             let flight = episode.flight;
             let folder = format!("{}/{:03}/{}", flight.split, number / FOLDER_LIMIT, flight.trajectory_id);
             number += 1;
             for (lidar, all) in episode.sweeps()? {
-                sweeps += all.len();
+                (lidars, sweeps) = (lidars + 1, sweeps + all.len());
                 write_lidar(options.cloud_files, &format!("{folder}/{lidar}"), &all, out)?;
             }
             Ok(())
         })?;
         let body = format!("{}{BODY}", options.cloud_files.body());
         ExportCard { format: "lidar clouds", body, ..ExportCard::default() }.write(source, out)?;
-        let nothing = "no flight has a lidar: the recipe needs a stage `scan`".to_owned();
-        Ok(if sweeps == 0 { vec![nothing] } else { vec![] })
+        Ok(match (lidars, sweeps) {
+            (0, _) => vec!["no flight has a lidar: the recipe needs a stage `scan`".to_owned()],
+            (_, 0) => vec!["no flight is as long as a sweep: the stage `scan` needs a higher `rate_hz`".to_owned()],
+            _ => vec![],
+        })
     }
 }
 
