@@ -28,6 +28,8 @@ pub struct ExaminedEpisode {
     pub depth_is_along_rays: bool,
     /// Height of the target's body, metres.
     pub target_height_m: f64,
+    /// Whether the target is of the kind `runner`.
+    pub is_runner: bool,
     /// Clothes of the target, where they are known.
     pub wear: Option<Wear>,
     /// Whether nobody else who is seen in the flight wears the same; none where it is unknown.

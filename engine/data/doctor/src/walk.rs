@@ -91,6 +91,7 @@ pub fn facts_of(episode: &ExaminedEpisode) -> Option<Facts> {
         altitude_m: mean(&altitude_m),
         visibility: mean(&|frame| moments[frame].visible.unwrap_or_default()),
         wear: episode.wear,
+        is_runner: episode.is_runner,
         left_out,
     })
 }

@@ -7,7 +7,7 @@ use crate::{single, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_captions::{Caption as Text, CaptionConfig, Facts, Wear, Writer, captions, check, facts};
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
-use cosfly_domain::PlanOutcome;
+use cosfly_domain::{BodyKind, PlanOutcome};
 use cosfly_experts::artifacts;
 use cosfly_figures::Clothes;
 use cosfly_film::looks::walk_seed;
@@ -76,7 +76,7 @@ impl StageKind for Caption {
             canonical[TEACHER] = parameters::without(parameters::canonical(&teacher), TeacherConfig::NOT_IN_KEY);
         }
         let properties = StageProperties {
-            version: 15,
+            version: 16,
             parameters: canonical,
             inputs,
             items: ItemRule::PerInput("trajectories"),
@@ -123,15 +123,15 @@ impl Stage for CaptionStage {
             }
         };
         let followed = traffic::followed(inputs, inputs.one("trajectories")?)?;
-        let is_person = followed.as_ref().is_none_or(|followed| followed.plan.kind.is_on_foot());
-        if trajectory.track.radius_m == 0.0 || !is_person {
+        let kind = followed.as_ref().map_or(BodyKind::Pedestrian, |followed| followed.plan.kind);
+        if trajectory.track.radius_m == 0.0 || !kind.is_on_foot() {
             // The texts are about people on foot only.
             outputs.put("captions", &captions_to_bytes(&[]))?;
             return Ok(Produced::default());
         }
         let looks = followed.map_or_else(|| walk_seed(&trajectory.track), |followed| Ok(followed.plan.looks))?;
         let outfit = Clothes::draw(&looks).outfit;
-        let facts = facts(&trajectory).wearing(self.config.clothes.then(|| Wear::from(&outfit)));
+        let facts = facts(&trajectory).wearing(self.config.clothes.then(|| Wear::from(&outfit))).of_kind(kind);
         let texts: Vec<Text> = captions(&facts, &self.config, Seed(context.seed));
         texts.iter().try_for_each(|text| check_own(text, &facts))?;
         let Some(teacher) = &self.teacher else {

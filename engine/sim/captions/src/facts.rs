@@ -2,7 +2,7 @@
 
 use crate::turns::{Path, Turn};
 use cosfly_claims::{Compass, TurnKind};
-use cosfly_domain::{Colour, Outfit, Trajectory};
+use cosfly_domain::{BodyKind, Colour, Outfit, Trajectory};
 use cosfly_frames::DVec2;
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +14,7 @@ pub(crate) const LEAST_STOP_S: f64 = 1.0;
 const LEAST_WALK_M: f64 = 1.0;
 /// Slower than this nobody walks, m/s.
 const SLOWEST_WALK_MPS: f64 = 0.5;
-/// People who are faster while they move run, m/s.
+/// People who are faster while they move run, and runners at any pace, m/s.
 pub(crate) const RUNNING_MPS: f64 = 2.2;
 /// Way at the start and at the end of a walk that gives their directions, metres.
 const END_M: f64 = 3.0;
@@ -88,6 +88,9 @@ pub struct Facts {
     pub visibility: f64,
     /// Clothes of the target; `None` where they are unknown: texts do not name them, and claims about them are not judged.
     pub wear: Option<Wear>,
+    /// Whether the target is of the kind `runner`.
+    #[serde(default)]
+    pub is_runner: bool,
     /// What the frames leave out, where they are a part of the flight's.
     #[serde(default)]
     pub left_out: Option<LeftOut>,
@@ -112,9 +115,14 @@ impl Facts {
         Self { wear, ..self }
     }
 
-    /// Whether the target runs: nobody walks as fast.
+    /// These facts of a target of a kind.
+    pub fn of_kind(self, kind: BodyKind) -> Self {
+        Self { is_runner: kind == BodyKind::Runner, ..self }
+    }
+
+    /// Whether the target runs: nobody walks as fast, or it is a runner.
     pub fn runs(&self) -> bool {
-        self.walking_speed_mps > RUNNING_MPS
+        runs(self.is_runner, self.walking_speed_mps)
     }
 
     /// Time of all stops together, seconds.
@@ -187,8 +195,14 @@ pub fn facts(trajectory: &Trajectory) -> Facts {
             / count,
         visibility: trajectory.visibility.iter().sum::<f64>() / trajectory.visibility.len().max(1) as f64,
         wear: None,
+        is_runner: false,
         left_out: None,
     }
+}
+
+/// Whether somebody with a speed runs.
+pub(crate) fn runs(is_runner: bool, speed_mps: f64) -> bool {
+    speed_mps > if is_runner { STANDING_MPS } else { RUNNING_MPS }
 }
 
 /// Whether a way in a time is a walk, be it a short one.

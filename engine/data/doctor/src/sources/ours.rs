@@ -8,7 +8,7 @@ use crate::whole_files::{log_problem, parquet_problem};
 use crate::{ExaminedEpisode, ExaminedLook, ExaminedMoment, Flag};
 use cosfly_captions::{Facts, Wear};
 use cosfly_diagnose::{Diagnostic, Fault, Result, Stop};
-use cosfly_domain::{Colour, TARGET_INSTANCE};
+use cosfly_domain::{BodyKind, Colour, TARGET_INSTANCE};
 use cosfly_fingerprint::Digest;
 use cosfly_frames::DVec3;
 use cosfly_metrics::drawn_ground::DrawnGround;
@@ -231,6 +231,7 @@ fn episode(flight: &PublishedFlight, rows: &[FrameRow]) -> ExaminedEpisode {
         camera: is_plain.then_some(flight.camera),
         depth_is_along_rays: flight.lens.is_wide(&flight.camera),
         target_height_m: flight.target_height_m,
+        is_runner: flight.target_kind.as_deref() == Some(BodyKind::Runner.name()),
         wear: wear(flight),
         is_unlike_all: flight.target_clothes.as_ref().map(|_| rows.iter().all(|row| row.look_alikes == 0)),
         dt_s: flight.dt_s,

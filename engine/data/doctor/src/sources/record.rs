@@ -2,7 +2,7 @@
 
 use crate::{ExaminedEpisode, ExaminedMoment};
 use cosfly_captions::Wear;
-use cosfly_domain::{Perturbation, PixelBox, TargetView};
+use cosfly_domain::{BodyKind, Perturbation, PixelBox, TargetView};
 use cosfly_frames::{DVec3, action};
 use cosfly_schema::{RenderedTrajectory, Role};
 
@@ -28,6 +28,7 @@ pub fn episode(record: &RenderedTrajectory) -> ExaminedEpisode {
         displaced_m: Some(trajectory.perturbation.as_ref().map_or(0.0, displaced_m)),
         camera: is_plain.then_some(record.camera),
         target_height_m: trajectory.track.height_m,
+        is_runner: record.target_kind() == Some(BodyKind::Runner),
         wear: record.outfit.as_ref().map(Wear::from),
         is_unlike_all: record.outfit.as_ref().map(|_| (0..record.len()).all(|frame| record.look_alikes(frame) == 0)),
         dt_s: record.dt_s(),

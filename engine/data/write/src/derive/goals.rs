@@ -18,9 +18,9 @@ const CLEAR_PIXELS: u32 = 30;
 
 /// All goals of a flight; none for a target that is no person on foot.
 pub fn of(record: &RenderedTrajectory, losses: &[Loss], landmarks: &Landmarks) -> Vec<Goal> {
-    let is_person = record.target_kind().is_some_and(BodyKind::is_on_foot);
-    let Some(outfit) = record.outfit.as_ref().filter(|_| is_person && !record.is_empty()) else { return vec![] };
-    let flight = flight(record, outfit, losses, landmarks);
+    let kind = record.target_kind().filter(|kind| kind.is_on_foot() && !record.is_empty());
+    let (Some(kind), Some(outfit)) = (kind, record.outfit.as_ref()) else { return vec![] };
+    let flight = flight(record, (kind, outfit), losses, landmarks);
     let seed = Seed::of_item(record.seed, "goals", &record.trajectory_id);
     goals(&Course::of(&flight, landmarks), &seed)
 }
@@ -44,7 +44,7 @@ pub fn row(goal: &Goal) -> GoalRow {
 
 fn flight<'a>(
     record: &'a RenderedTrajectory,
-    outfit: &Outfit,
+    (kind, outfit): (BodyKind, &Outfit),
     losses: &[Loss],
     landmarks: &Landmarks,
 ) -> CourseData<'a> {
@@ -56,6 +56,7 @@ fn flight<'a>(
     ids.dedup();
     CourseData {
         dt_s: record.dt_s(),
+        kind,
         states: &record.trajectory.track.states,
         distance_m: (0..record.len()).map(|frame| record.distance_m(frame)).collect(),
         is_clear: (0..record.len()).map(|frame| is_clear(record, frame)).collect(),

@@ -22,7 +22,8 @@ pub fn instruction(
 
 /// The picture of frame `frame`; `None` for a target that is no person.
 fn view(record: &RenderedTrajectory, frame: usize, start: usize) -> Option<WindowView> {
-    let outfit = record.outfit.as_ref().filter(|_| record.target_kind().is_some_and(BodyKind::is_on_foot))?;
+    let kind = record.target_kind().filter(|kind| kind.is_on_foot())?;
+    let outfit = record.outfit.as_ref()?;
     let states = &record.trajectory.track.states;
     let seen = &record.views[frame];
     let other = |(body, sighting): (&OtherBody, &Sighting)| {
@@ -35,6 +36,7 @@ fn view(record: &RenderedTrajectory, frame: usize, start: usize) -> Option<Windo
         camera: record.camera_pose(frame),
         optics: record.camera,
         wide_lens: Some(record.lens).filter(|lens| lens.is_wide(&record.camera)),
+        kind,
         target: person(&states[frame], seen.visible_box.as_ref(), seen.pixels, outfit.top.name),
         wear: Some(Wear::from(outfit)),
         moved_in_world: states[frame].feet_in_world - states[start].feet_in_world,

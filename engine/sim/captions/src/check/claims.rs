@@ -100,8 +100,11 @@ impl Checker<'_> {
             }
             Claim::TurnsSoon | Claim::TurnsLate => self.time_of_turn(*claim == Claim::TurnsSoon),
             Claim::Stays => self.expect(!facts.walks, Slot::Walking, "stands", "walks"),
-            Claim::Walks => self.gait("walks", facts.walks && facts.walking_speed_mps < RUNNING_MPS + GAIT_MPS),
-            Claim::Runs => self.gait("runs", facts.walking_speed_mps > RUNNING_MPS - GAIT_MPS),
+            Claim::Walks => {
+                let is_slow = !facts.is_runner && facts.walking_speed_mps < RUNNING_MPS + GAIT_MPS;
+                self.gait("walks", facts.walks && is_slow);
+            }
+            Claim::Runs => self.gait("runs", facts.runs() || facts.walking_speed_mps > RUNNING_MPS - GAIT_MPS),
             Claim::Unknown(ref words) => self.expect(false, Slot::Number, words, "nothing of the kind"),
             Claim::Direction(_) | Claim::Turn(_) => {}
             _ => self.measure(claim),

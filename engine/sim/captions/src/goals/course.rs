@@ -2,7 +2,7 @@
 
 use super::claim::{Claim, Hider, Said, is_named};
 use super::crossings::crossings;
-use crate::facts::{RUNNING_MPS, Wear, walks};
+use crate::facts::{Wear, runs, walks};
 use crate::sight::Landmarks;
 use crate::turns::{Path, Turns};
 use cosfly_claims::TurnKind;
@@ -53,6 +53,8 @@ pub struct Neighbour {
 pub struct CourseData<'a> {
     /// Time between frames, seconds.
     pub dt_s: f64,
+    /// Kind of the target.
+    pub kind: BodyKind,
     /// The target.
     pub states: &'a [TargetState],
     /// Distance from the drone to the feet by frame, metres.
@@ -107,7 +109,7 @@ impl<'a> Course<'a> {
         let moving =
             self.flight.states.iter().map(|state| state.speed_mps).filter(|speed_mps| *speed_mps >= STANDING_MPS);
         let (sum_mps, count) = moving.fold((0.0, 0.0), |(sum, count), speed_mps| (sum + speed_mps, count + 1.0));
-        sum_mps > RUNNING_MPS * count
+        count > 0.0 && runs(self.flight.kind == BodyKind::Runner, sum_mps / count)
     }
 
     /// Number of frames.

@@ -50,6 +50,7 @@ fn flight(states: &[TargetState]) -> CourseData<'_> {
     };
     CourseData {
         dt_s: 0.5,
+        kind: BodyKind::Pedestrian,
         states,
         distance_m: vec![15.2; states.len()],
         is_clear: vec![true; states.len()],
@@ -205,4 +206,18 @@ fn what_is_said_depends_on_times_and_not_on_numbers_of_frames() {
     let expected = told(&Course::of(&of_coarse, &town), 1);
     assert_eq!(expected[0], ["PartlyHidden(Body(Van))"]);
     assert_eq!(told(&Course::of(&of_fine, &town), FINER), expected);
+}
+
+#[test]
+fn a_slow_runner_runs() {
+    let (states, town) = (states(), town());
+    let texts = |kind: BodyKind| -> String {
+        let flight = CourseData { kind, ..flight(&states) };
+        let course = Course::of(&flight, &town);
+        let all = (0..20).flat_map(|seed| goals(&course, &Seed::of_item(seed, "goals", "a")));
+        all.flat_map(|goal| goal.lines).collect::<Vec<_>>().join("\n")
+    };
+    let (walks, runs) = (texts(BodyKind::Pedestrian), texts(BodyKind::Runner));
+    assert!(walks.contains("walk") && !walks.contains("run") && !walks.contains('跑'));
+    assert!(!runs.contains("walk") && runs.contains("run") && runs.contains('跑'));
 }

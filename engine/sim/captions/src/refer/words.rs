@@ -1,7 +1,7 @@
 //! Referring phrases in words.
 
 use super::phrase::{Phrase, Property};
-use crate::facts::RUNNING_MPS;
+use crate::facts::runs;
 use crate::messages::{Messages, messages_of};
 use crate::part::PicturePart;
 use cosfly_claims::Language;
@@ -9,7 +9,8 @@ use cosfly_domain::BodyKind;
 
 /// A phrase in words, such as `the walking person in a red top`.
 pub fn text(phrase: &Phrase, language: Language) -> String {
-    let runs = phrase.of.kind.is_on_foot() && phrase.of.speed_mps > RUNNING_MPS;
+    let of = &phrase.of;
+    let runs = of.kind.is_on_foot() && runs(of.kind == BodyKind::Runner, of.speed_mps);
     phrase_in(phrase, messages_of(language, runs))
 }
 

@@ -6,9 +6,9 @@
 use super::beside::{NearLandmark, near_landmarks};
 use super::landmarks::Landmarks;
 use super::view::{STANDS_M, SeenPerson, WALKS_M, WindowView};
-use crate::facts::{RUNNING_MPS, Wear};
+use crate::facts::{Wear, runs};
 use crate::part::PicturePart;
-use cosfly_domain::Colour;
+use cosfly_domain::{BodyKind, Colour};
 use cosfly_frames::real;
 
 /// A way within this angle of a direction of the picture has its name, degrees.
@@ -106,7 +106,7 @@ pub struct Sight {
 
 /// Facts of the picture in a town with these landmarks.
 pub fn sight(view: &WindowView, landmarks: &Landmarks) -> Sight {
-    let runs = view.target.speed_mps > RUNNING_MPS;
+    let runs = runs(view.kind == BodyKind::Runner, view.target.speed_mps);
     Sight { wear: view.wear, runs, seen: view.target.box_px.map(|_| seen(view, landmarks)) }
 }
 
@@ -227,5 +227,16 @@ mod tests {
         let target = person(12.0, 0.0, 0.0, Colour::Red);
         let faint = SeenPerson { pixels: 5, ..person(10.0, 0.0, 0.0, Colour::Black) };
         assert!(!sight(&view(target, vec![faint]), &town()).seen.expect("it is seen").near[0].is_clear);
+    }
+
+    #[test]
+    fn runners_run_at_any_pace_and_others_beyond_that_of_a_walk() {
+        let runs = |kind: BodyKind, speed_mps: f64| {
+            let target = SeenPerson { speed_mps, ..person(10.0, 0.0, 0.0, Colour::Black) };
+            sight(&WindowView { kind, ..view(target, vec![]) }, &town()).runs
+        };
+        let paces_mps = [0.0, 1.9, 2.5];
+        assert_eq!(paces_mps.map(|it| runs(BodyKind::Pedestrian, it)), [false, false, true]);
+        assert_eq!(paces_mps.map(|it| runs(BodyKind::Runner, it)), [false, true, true]);
     }
 }

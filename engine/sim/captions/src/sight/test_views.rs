@@ -3,7 +3,7 @@
 use super::landmarks::Landmarks;
 use super::view::{SeenPerson, WindowView};
 use crate::facts::Wear;
-use cosfly_domain::{Camera, Colour, Obstacle, ObstacleKind, OrientedBox};
+use cosfly_domain::{BodyKind, Camera, Colour, Obstacle, ObstacleKind, OrientedBox};
 use cosfly_frames::{DVec3, Pose, real};
 
 /// Somebody at x, y (m) who walks along a yaw (degrees) at 1.3 m/s, seen by the camera of [`view`].
@@ -50,6 +50,7 @@ pub(crate) fn view(target: SeenPerson, others: Vec<SeenPerson>) -> WindowView {
         camera: Pose::looking_at(DVec3::Z * 5.0, DVec3::new(12.0, 0.0, 1.0)),
         optics: Camera { width: 640, height: 480, horizontal_fov_rad: 90f64.to_radians() },
         wide_lens: None,
+        kind: BodyKind::Pedestrian,
         wear: Some(Wear { top: target.top, trousers: Colour::Blue, backpack: false }),
         moved_in_world: 2.0 * target.speed_mps * DVec3::new(cos, sin, 0.0),
         target,

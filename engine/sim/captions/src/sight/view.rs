@@ -1,7 +1,7 @@
 //! One picture: the target, everybody else, the camera.
 
 use crate::facts::Wear;
-use cosfly_domain::{Camera, Colour, Lens};
+use cosfly_domain::{BodyKind, Camera, Colour, Lens};
 use cosfly_frames::{DVec3, Pose};
 
 /// A person with fewer visible pixels is not clear: texts do not mention and do not count such a person, and do not say how
@@ -58,6 +58,8 @@ pub struct WindowView {
     pub optics: Camera,
     /// The lens, where it sees all around; otherwise landmarks are where the ideal camera sees them.
     pub wide_lens: Option<Lens>,
+    /// Kind of the target.
+    pub kind: BodyKind,
     /// The target.
     pub target: SeenPerson,
     /// Clothes of the target.
