@@ -205,6 +205,8 @@ def test_what_is_not_there_is_refused():
         make_vec(obs=("thermal",))
     with pytest.raises(ValueError, match="ClearNoon"):
         make_vec(obs=("rgb",), weather="Frogs")
+    with pytest.raises(cosfly.WrongType, match="recipe of environments"):
+        gym.make(ID, recipe={"name": "a"})
     with pytest.raises(ValueError, match="simple, full"):
         make_vec(obs=("rgb",), look="pretty")
     with pytest.raises(ValueError, match="8 to 2048"):
@@ -213,6 +215,11 @@ def test_what_is_not_there_is_refused():
         envs = make_vec(num_envs=2)
         envs.reset(seed=1)
         envs.step(np.zeros((3, 5), dtype=np.float32))
+
+
+def test_one_observation_may_be_named_without_a_list():
+    named, listed = (make_vec(num_envs=2, obs=obs, size=16).reset(seed=1)[0] for obs in ("depth", ("depth",)))
+    assert named.shape == (2, 16, 16) and (named == listed).all()
 
 
 def test_the_suite_names_drone_wind_and_latency():

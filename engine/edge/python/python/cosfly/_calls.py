@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Type, TypeVar, Union
 
 from . import _cosfly, _toml
-from ._errors import InvalidValue, WrongType, options
+from ._errors import InvalidValue, WrongType, options, path_of
 from ._show import Bars
 
 if TYPE_CHECKING:
@@ -235,7 +235,7 @@ class ExportResult:
 @options(start="`template`")
 def init(folder: PathLike = "town", template: Optional[str] = None) -> Path:
     """Write a folder to begin with: a recipe, its town, a page. ``template`` is ``town`` or ``small``."""
-    _call(["init", os.fspath(folder)] + (["--template", template] if template else []), b"", False)
+    _call(["init", path_of(folder)] + (["--template", template] if template else []), b"", False)
     return Path(folder)
 
 
@@ -298,7 +298,7 @@ def verify(
     goes on. ``mesh`` is the scan that was flown in: flights keep their clearance from its triangles.
     """
     given = _options(sample=sample, resume=resume, jobs=jobs, regenerate=regenerate, recipe=recipe, mesh=mesh, store=store)
-    arguments = ["verify", os.fspath(dataset), "--json", *given, *_settings(set)]
+    arguments = ["verify", path_of(dataset), "--json", *given, *_settings(set)]
     _, text, _ = _call(arguments, b"", progress)
     return _known(VerifyResult, json.loads(text))
 
@@ -311,7 +311,7 @@ def doctor(
 
     ``imperfect_share`` is the share of imperfect episodes that does no harm, 0 to 1; a quota is like ``"0.2:2-4"``.
     """
-    arguments = ["doctor", os.fspath(data), "--json", "--imperfect-share", str(imperfect_share)]
+    arguments = ["doctor", path_of(data), "--json", "--imperfect-share", str(imperfect_share)]
     for quota in quotas:
         arguments += ["--quota", quota]
     code, text, _ = _call(arguments, b"", progress)
@@ -349,10 +349,10 @@ def evaluate(
     each starts from, ``anchor`` (``input`` or ``expert``) that of the first. ``history``, ``horizon`` and ``stride`` are
     numbers of frames. ``every`` to ``images`` are for pictures, ``sequences`` is for trackers.
     """
-    given = [] if predictions is None else [os.fspath(predictions)]
+    given = [] if predictions is None else [path_of(predictions)]
     default = f"{os.path.splitext(given[0])[0]}-evaluation" if given else "baselines-evaluation"
     folder = Path(out) if out is not None else Path(default)
-    arguments = ["eval", os.fspath(dataset), *given, "--out", os.fspath(folder), "--json"]
+    arguments = ["eval", path_of(dataset), *given, "--out", path_of(folder), "--json"]
     arguments += _options(
         kind=kind, split=splits, frame=frame, anchor=anchor, input=input, history=history, horizon=horizon, stride=stride,
         missing_as_zero=missing_as_zero, resamples=resamples, seed=seed, every=every, depth_per_metre=depth_per_metre,
@@ -375,7 +375,7 @@ def export(
     **format_options: Option,
 ) -> ExportResult:
     """Write a dataset in another format. ``format_options`` are those of the format, as the reference of formats has them."""
-    arguments = ["export", os.fspath(dataset), "--format", format, "--out", os.fspath(out), "--json"]
+    arguments = ["export", path_of(dataset), "--format", format, "--out", path_of(out), "--json"]
     arguments += _options(split=splits, trajectory=trajectory_ids, jobs=jobs, **format_options)
     _, text, _ = _call(arguments, b"", progress)
     found = json.loads(text)
@@ -391,7 +391,7 @@ def preview(
 
     ``frames`` is like ``"0,50,100"`` or ``"0..200:10"``; the pictures go to ``out``, beside the dataset by default.
     """
-    arguments = ["preview", os.fspath(dataset), "--json", *_options(trajectory=trajectory_id, frames=frames, out=out)]
+    arguments = ["preview", path_of(dataset), "--json", *_options(trajectory=trajectory_id, frames=frames, out=out)]
     _, text, _ = _call(arguments, b"", progress)
     found = json.loads(text)
     return PreviewResult(found["trajectory"], *(Path(path) for path in found["files"]))
@@ -401,7 +401,7 @@ def _with_recipe(
     command: List[str], recipe: Recipe, changes: Settings, options: List[str], progress: Progress,
     more: Sequence[str] = (),
 ) -> Tuple[int, str, List[str]]:  # fmt: skip
-    given, text = ("-", _toml.dumps(recipe)) if isinstance(recipe, Mapping) else (os.fspath(recipe), "")
+    given, text = ("-", _toml.dumps(recipe)) if isinstance(recipe, Mapping) else (path_of(recipe, "a recipe"), "")
     return _call([*command, given, *more, *_settings(changes), *options], text.encode(), progress)
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from . import _cosfly
 from ._calls import PathLike
 from ._cosfly import Reader, Table
-from ._errors import InvalidValue, NotFound, OutOfRange, WrongType, options
+from ._errors import InvalidValue, NotFound, OutOfRange, WrongType, options, path_of
 from ._show import Frame, Town, Trajectory
 
 ROLES = ("expert", "perturbed")
@@ -86,7 +86,7 @@ class Dataset:
         captions: Optional[str] = None,
         jobs: int = 1,
     ):
-        self.path = Path(path)
+        self.path = Path(path_of(path))
         self.split, self.role = split, role
         self.channels, self.size = tuple(channels), size
         self._opened: Tuple[int, Optional[Reader]] = (-1, None)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Mapping, NamedTuple, Sequence
 
 from . import _cosfly
 from ._calls import settings_of
-from ._errors import InvalidValue, WrongType
+from ._errors import InvalidValue, WrongType, path_of
 
 if TYPE_CHECKING:
     from typing import TypedDict
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
         set: Mapping[str, Any] | None
         store: str | os.PathLike[str] | None
-        obs: Sequence[str]
+        obs: str | Sequence[str]
         size: int | tuple[int, int]
         max_depth_m: float
         weather: str | None
@@ -80,7 +80,7 @@ class EnvConfig:
     """Changes to values of the recipe, as of :func:`cosfly.run`."""
     store: str | os.PathLike[str] | None = None
     """Folder of the store; else that of ``COSFLY_STORE``, else ``.cosfly``."""
-    obs: Sequence[str] = ("state",)
+    obs: str | Sequence[str] = ("state",)
     """Observations: ``state`` (16 numbers), names of :data:`CHANNELS` and of :data:`SENSORS`. One alone is an array, several are a
     dictionary."""
     size: int | tuple[int, int] = 84
@@ -102,6 +102,9 @@ class EnvConfig:
 
     def __post_init__(self) -> None:
         settings_of(self.set)
+        path_of(self.recipe, "the recipe of environments")
+        if isinstance(self.obs, str):
+            object.__setattr__(self, "obs", (self.obs,))
         if self.jobs is not None and not 1 <= operator.index(self.jobs) <= 1024:
             raise InvalidValue(f"jobs is {self.jobs}; it is 1 to 1024")
         names = tuple(self.obs)
@@ -151,7 +154,7 @@ class EnvConfig:
     @property
     def place(self) -> str:
         """Folder of the store."""
-        return os.fspath(self.store if self.store is not None else os.environ.get("COSFLY_STORE") or ".cosfly")
+        return path_of(self.store if self.store is not None else os.environ.get("COSFLY_STORE") or ".cosfly")
 
     @property
     def threads(self) -> int:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import functools
 import inspect
+import os
 import re
 from dataclasses import dataclass
 from typing import Any, Callable, Optional, Sequence, Tuple, TypeVar, cast
@@ -83,6 +84,14 @@ class OutOfRange(Error, IndexError):
     """A number beyond the last sample or frame."""
 
     _code = "python-number"
+
+
+def path_of(value: Any, what: str = "a path") -> str:
+    """The text of a path; what is none is refused."""
+    try:
+        return os.fspath(value)
+    except TypeError:
+        raise WrongType(f"{what} is a text or a path, not {value!r:.60} ({type(value).__name__})") from None
 
 
 def options(**gone: str) -> Callable[[Call], Call]:

@@ -12,7 +12,7 @@ import numpy as np
 
 from . import _cosfly
 from ._calls import PathLike, Settings, settings_of
-from ._errors import options
+from ._errors import options, path_of
 
 
 @dataclass(frozen=True)
@@ -47,8 +47,8 @@ class Expert:
 
     @options(overrides="`set`")
     def __init__(self, recipe: PathLike, *, set: Settings = None, store: Optional[PathLike] = None):
-        place = None if store is None else os.fspath(store)
-        self._options = json.dumps({"recipe": os.fspath(recipe), "set": settings_of(set), "store": place})
+        place = None if store is None else path_of(store)
+        self._options = json.dumps({"recipe": path_of(recipe, "the recipe of an expert"), "set": settings_of(set), "store": place})
         self._opened: Tuple[int, Optional[_cosfly.ExpertService]] = (-1, None)
 
     def __getstate__(self) -> Dict[str, Any]:

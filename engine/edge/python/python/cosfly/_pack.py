@@ -16,7 +16,7 @@ import numpy as np
 from . import _cosfly
 from ._calls import PathLike, Progress
 from ._dataset import Dataset, warn_of_small_targets
-from ._errors import InvalidValue, OutOfRange, options
+from ._errors import InvalidValue, OutOfRange, options, path_of
 from ._show import Bars
 
 FORMAT = "cosfly-pack-2"
@@ -45,7 +45,7 @@ def pack(
     frame, and the identity of the dataset: :class:`cosfly.Pack` refuses labels of another one. The folder appears when it
     is whole.
     """
-    out, jobs = Path(out), jobs or os.cpu_count() or 1
+    out, jobs = Path(path_of(out)), jobs or os.cpu_count() or 1
     frames = Dataset(dataset, split=split, role=role, trajectories=trajectories, channels=channels, size=size, jobs=jobs)
     if os.path.lexists(out):
         raise InvalidValue(f"{out} is there already; choose another folder")
@@ -120,7 +120,7 @@ class Pack(Dataset):
     """
 
     def __init__(self, path: PathLike, dataset: PathLike, **options: Any):
-        self.pack_path = Path(path)
+        self.pack_path = Path(path_of(path))
         about, self._seal = _about(self.pack_path)
         self._first: Dict[str, int] = about["first_frame"]
         self._frames: Dict[str, Frames] = {}
