@@ -9,6 +9,8 @@ use cosfly_frames::{DVec3, Pose};
 pub struct ExaminedEpisode {
     /// Name.
     pub id: String,
+    /// Name of the flight, which several films may show; empty where episodes are flights.
+    pub flight: String,
     /// Split, where the data have splits.
     pub split: Option<String>,
     /// Pedestrian or scenario: episodes of the same group belong to one split.

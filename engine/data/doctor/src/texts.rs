@@ -108,6 +108,8 @@ const LANGUAGES: usize = Language::ALL.len();
 #[derive(Default)]
 pub(crate) struct TextTally {
     texts: [Vec<String>; LANGUAGES],
+    /// Flight and text, and the film that had it first: texts are of flights, and count once.
+    first: [BTreeMap<(String, String), String>; LANGUAGES],
     clean: [usize; LANGUAGES],
     dressed: [[usize; 2]; LANGUAGES],
     singled: [[usize; 2]; LANGUAGES],
@@ -122,6 +124,9 @@ impl TextTally {
         for (code, text) in &episode.captions {
             let Some(language) = Language::of_code(code) else { continue };
             let at = language as usize;
+            if self.is_of_another_film(at, episode, text) {
+                continue;
+            }
             let slots = claimed(text, language);
             let mut wrong = check(text, language, &facts).err().unwrap_or_default();
             if self.judged.is_some() {
@@ -157,6 +162,15 @@ impl TextTally {
         }
     }
 
+    /// Whether another film of the flight had the text: the dataset's own texts are those of flights, given ones of films.
+    fn is_of_another_film(&mut self, at: usize, episode: &ExaminedEpisode, text: &str) -> bool {
+        if self.judged.is_some() || episode.flight.is_empty() {
+            return false;
+        }
+        let key = (episode.flight.clone(), text.to_owned());
+        *self.first[at].entry(key).or_insert_with(|| episode.id.clone()) != episode.id
+    }
+
     pub(crate) fn figures(&self) -> Vec<TextFigures> {
         let of = |at: usize| {
             let share = |part: usize, whole: usize| part as f64 / whole.max(1) as f64;
@@ -174,5 +188,27 @@ impl TextTally {
             }
         };
         (0..LANGUAGES).filter(|at| !self.texts[*at].is_empty()).map(of).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::walk::tests::episode;
+
+    fn film(id: &str, flight: &str) -> ExaminedEpisode {
+        ExaminedEpisode { id: id.to_owned(), flight: flight.to_owned(), ..episode(&[(0.0, 12.0)], "walks straight on") }
+    }
+
+    #[test]
+    fn a_text_of_several_films_of_a_flight_counts_once() {
+        let count = |films: [ExaminedEpisode; 2]| {
+            let mut tally = TextTally::default();
+            films.iter().for_each(|film| tally.add(film));
+            tally.texts[Language::En as usize].len()
+        };
+        assert_eq!(count([film("a-left", "a"), film("a-right", "a")]), 1);
+        assert_eq!(count([film("a", "a"), film("b", "b")]), 2);
+        assert_eq!(count([film("a", ""), film("b", "")]), 2);
     }
 }

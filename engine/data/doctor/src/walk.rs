@@ -259,7 +259,7 @@ fn sum_deg(angles: &[f64; 2]) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::ExaminedMoment;
     use TurnKind::{Around, Left, Right};
@@ -282,7 +282,7 @@ mod tests {
     }
 
     /// A flight 28 m behind and above a walk, with one instruction.
-    fn episode(legs: &[(f64, f64)], text: &str) -> ExaminedEpisode {
+    pub(crate) fn episode(legs: &[(f64, f64)], text: &str) -> ExaminedEpisode {
         let moment = |(frame, feet): (usize, &DVec3)| {
             let drone = Pose::looking_at(*feet + DVec3::new(-20.0, 0.0, 20.0), *feet);
             ExaminedMoment {

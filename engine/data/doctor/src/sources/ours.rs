@@ -188,6 +188,7 @@ fn displacements(dataset: &PublishedDataset) -> Result<BTreeMap<String, f64>> {
 fn named(flight: &PublishedFlight) -> ExaminedEpisode {
     ExaminedEpisode {
         id: flight.trajectory_id.clone(),
+        flight: flight.flight_id.clone(),
         split: Some(flight.split.clone()),
         group: flight.pedestrian_id.clone(),
         place: if flight.town_geometry.is_empty() { flight.town.clone() } else { flight.town_geometry.clone() },

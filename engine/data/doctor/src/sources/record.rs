@@ -21,6 +21,7 @@ pub fn episode(record: &RenderedTrajectory) -> ExaminedEpisode {
     ];
     ExaminedEpisode {
         id: record.trajectory_id.clone(),
+        flight: record.flight_id.clone(),
         group: record.pedestrian_id.clone(),
         place: record.town.geometry_digest.clone(),
         town: record.town.name.clone(),
