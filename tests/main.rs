@@ -27,6 +27,7 @@ mod hunt;
 mod leaderboard;
 mod long_walks;
 mod models;
+mod named_files;
 mod more_walkers;
 mod people;
 mod places;

@@ -11,7 +11,7 @@ use std::sync::Arc;
 pub enum Fault {
     /// Invalid request in the recipe or on the command line.
     Recipe,
-    /// Broken or unsuitable input file (map, track, store).
+    /// Missing, unreadable, broken or unsuitable input file (map, track, store).
     Input,
     /// Error of the operating system: no permission, no thread, a file that disappeared.
     Machine,
@@ -74,6 +74,11 @@ impl Diagnostic {
             _ => Diagnostic::new("machine-io", Fault::Machine, message),
         };
         diagnostic.because(error)
+    }
+
+    /// A file or folder that somebody named, as in "the map `a.osm`", and that cannot be read, for whatever reason.
+    pub fn unread(subject: impl fmt::Display, error: &Error) -> Box<Self> {
+        Diagnostic::new("input-unreadable", Fault::Input, format!("could not read {subject}")).because(error)
     }
 
     /// Work on `subject` (shown in back-ticks) that ended because the user stopped the program.

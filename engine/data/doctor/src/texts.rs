@@ -73,7 +73,7 @@ impl GivenTexts {
     /// `doctor-texts` names the line; errors of the machine.
     pub fn read(path: &Path) -> Result<Self> {
         let bytes =
-            std::fs::read(path).map_err(|error| Diagnostic::io(format!("read `{}`", path.display()), &error))?;
+            std::fs::read(path).map_err(|error| Diagnostic::unread(format!("`{}`", path.display()), &error))?;
         let mut texts = Self::default();
         for (number, line) in String::from_utf8_lossy(&bytes).lines().enumerate() {
             if line.trim().is_empty() {

@@ -33,7 +33,7 @@ use std::path::Path;
 /// The file cannot be read, is Parquet without the columns, or an array that is cut off. Invalid rows are no error, see
 /// [`Predictions::problems`].
 pub fn read(path: &Path) -> Result<Predictions> {
-    let refused = |error: std::io::Error| Diagnostic::io(format!("read `{}`", path.display()), &error);
+    let refused = |error: std::io::Error| Diagnostic::unread(format!("`{}`", path.display()), &error);
     let mut file = File::open(path).map_err(refused)?;
     let mut start = vec![];
     file.by_ref().take(4).read_to_end(&mut start).map_err(refused)?;

@@ -25,7 +25,7 @@ Exit codes:
     1  the command found problems; the help of the command says which
     2  the command line is invalid
     3  the recipe or the command line asks for something impossible
-    4  an input file, the store or a given state is broken or does not fit
+    4  an input file, the store or a given state is missing, unreadable, broken or does not fit
     5  system error: disk full, no permission, a file vanished
    70  internal error: please report it
   130  stopped by Ctrl-C; finished items are kept

@@ -11,7 +11,7 @@ pub const FOUND_PROBLEMS: u8 = 1;
 pub const ARGUMENTS: u8 = 2;
 /// The recipe or the command line asks for something impossible.
 pub const RECIPE: u8 = 3;
-/// An input file, the store or a given state is broken or does not fit.
+/// An input file, the store or a given state is missing, unreadable, broken or does not fit.
 pub const INPUT: u8 = 4;
 /// System error: disk full, no permission, a file vanished.
 pub const MACHINE: u8 = 5;

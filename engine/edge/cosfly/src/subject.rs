@@ -97,7 +97,7 @@ impl Subject {
         let published = match is_digest {
             true => commitment.to_owned(),
             false => std::fs::read_to_string(commitment)
-                .map_err(|error| Diagnostic::io(format!("read the commitment `{commitment}`"), &error))?,
+                .map_err(|error| Diagnostic::unread(format!("the commitment `{commitment}`"), &error))?,
         };
         held_out::check(recipe, suite, published.trim())
     }

@@ -110,7 +110,7 @@ pub fn checked(given: Value) -> Result<(MapConfig, Vec<PathBuf>), ParameterError
 
 /// A map file that cannot be read, as a diagnostic.
 pub fn unreadable(path: &Path, error: &std::io::Error) -> Box<Diagnostic> {
-    Diagnostic::io(format!("read the map `{}`", path.display()), error)
+    Diagnostic::unread(format!("the map `{}`", path.display()), error)
 }
 
 /// True for names that can be folders of the dataset and values in its tables.

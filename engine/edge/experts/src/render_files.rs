@@ -104,7 +104,7 @@ pub fn read_mesh(config: &MeshConfig, path: &Path, beside: &[PathBuf], world_ori
         .map_err(|problem| Diagnostic::new("mesh-placed", Fault::Recipe, problem.message).hint(problem.hint))?;
     let read = |path: &Path| {
         let unreadable =
-            |error: std::io::Error| Diagnostic::io(format!("read the mesh's file `{}`", path.display()), &error);
+            |error: std::io::Error| Diagnostic::unread(format!("the mesh's file `{}`", path.display()), &error);
         let length = std::fs::metadata(path).map_err(unreadable)?.len();
         if length > MOST_MESH_BYTES {
             let message = format!("the file has {length} bytes; at most {MOST_MESH_BYTES} are read");
@@ -131,7 +131,7 @@ fn read_scene_splats(config: &RenderConfig, files: &[PathBuf], world_origin_m: D
 
 fn read_splats(path: &Path) -> Result<SplatCloud> {
     let shown = path.display();
-    let unreadable = |error: std::io::Error| Diagnostic::io(format!("read the splats `{shown}`"), &error);
+    let unreadable = |error: std::io::Error| Diagnostic::unread(format!("the splats `{shown}`"), &error);
     let length = std::fs::metadata(path).map_err(unreadable)?.len();
     if length > MOST_SPLAT_BYTES {
         let message = format!("the file has {length} bytes; at most {MOST_SPLAT_BYTES} are read");
@@ -159,7 +159,7 @@ pub fn read_models(config: &RenderConfig, files: &[PathBuf]) -> Result<Vec<Scene
 
 fn read_model(path: &Path) -> Result<Model> {
     let shown = path.display();
-    let bytes = std::fs::read(path).map_err(|error| Diagnostic::io(format!("read the model `{shown}`"), &error))?;
+    let bytes = std::fs::read(path).map_err(|error| Diagnostic::unread(format!("the model `{shown}`"), &error))?;
     Model::read(&bytes).map_err(|error| {
         let refused = Diagnostic::new("model-refused", Fault::Input, error.message).because(format!("in `{shown}`"));
         error.hints.into_iter().fold(refused, |refused, hint| refused.hint(hint))

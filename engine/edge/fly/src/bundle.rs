@@ -210,7 +210,7 @@ impl Bundle {
             };
             return Err(Diagnostic::new("fly-bundle", Fault::Input, format!("`{shown}` {what}")).hint(hint));
         }
-        let bytes = std::fs::read(path).map_err(|error| Diagnostic::io(format!("read {shown}"), &error))?;
+        let bytes = std::fs::read(path).map_err(|error| Diagnostic::unread(format!("`{shown}`"), &error))?;
         Self::of_bytes(&bytes).map_err(|rule| {
             Diagnostic::new("fly-bundle", Fault::Input, format!("`{shown}` is no whole bundle of `cosfly fly bundle`"))
                 .because(rule)

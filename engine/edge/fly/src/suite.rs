@@ -310,7 +310,7 @@ fn scan_of(films: &RecipeStage, pictures: &RenderConfig) -> Result<String> {
     let mut listed = format!("scan {} {}\n", parameters["mesh"], parameters["splats"]);
     for path in files_of(films) {
         let bytes = std::fs::read(&path)
-            .map_err(|error| Diagnostic::io(format!("read the scan's file `{}`", path.display()), &error))?;
+            .map_err(|error| Diagnostic::unread(format!("the scan's file `{}`", path.display()), &error))?;
         let _ = writeln!(listed, "scan {}", Digest::of(&bytes));
     }
     Ok(listed)

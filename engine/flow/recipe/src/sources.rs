@@ -8,6 +8,7 @@ use cosfly_stage::Source;
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 use std::fs::DirEntry;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Resolves and checks the files of a recipe.
@@ -80,7 +81,7 @@ impl SourceFinder<'_> {
             Ok(_) => return Err((format!("`{}` is not a regular file", path.display()), vec![])),
             Err(error) => error,
         };
-        if error.kind() == std::io::ErrorKind::PermissionDenied {
+        if !matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) {
             return Err((format!("`{}` cannot be read: {error}", path.display()), vec![]));
         }
         let mut hints = vec![];

@@ -39,7 +39,7 @@ pub fn files_below(folder: &Path, is_wanted: &dyn Fn(&Path) -> bool) -> Result<(
     let (mut found, mut others, mut open) = (vec![], 0, vec![PathBuf::new()]);
     while let Some(inner) = open.pop() {
         let path = folder.join(&inner);
-        let refused = |error: std::io::Error| Diagnostic::io(format!("read `{}`", path.display()), &error);
+        let refused = |error: std::io::Error| Diagnostic::unread(format!("`{}`", path.display()), &error);
         for entry in std::fs::read_dir(&path).map_err(refused)? {
             let entry = entry.map_err(refused)?;
             let name = inner.join(entry.file_name());

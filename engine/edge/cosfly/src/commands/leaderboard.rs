@@ -59,7 +59,7 @@ impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
         if !self.folder.is_dir() {
             let message = format!("`{}` is no folder", self.folder.display());
-            let refusal = Diagnostic::new("fly-board", Fault::Recipe, message);
+            let refusal = Diagnostic::new("fly-board", Fault::Input, message);
             return Err(refusal.hint("give a folder with files that `cosfly fly bundle` made").into());
         }
         let subjects = self.subjects(console)?;

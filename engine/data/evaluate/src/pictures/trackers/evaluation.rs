@@ -63,7 +63,7 @@ pub fn evaluate(
             .map(|place| {
                 let file = path.join(&files.files[place]);
                 let bytes = std::fs::read(&file)
-                    .map_err(|error| Diagnostic::io(format!("read `{}`", file.display()), &error))?;
+                    .map_err(|error| Diagnostic::unread(format!("`{}`", file.display()), &error))?;
                 Ok((*place, boxes(&bytes, &all[*place], settings.kind)))
             })
             .collect::<Result<_>>()?;

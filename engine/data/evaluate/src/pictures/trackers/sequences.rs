@@ -61,7 +61,7 @@ pub fn sequences(flights: &Flights, settings: &PictureSettings) -> Result<Vec<Tr
 fn listed(path: &Path, flights: &Flights) -> Result<Vec<TrackedSequence>> {
     let hint = "`--sequences` takes the `sequences.jsonl` of an export for trackers of the same dataset";
     let text = std::fs::read_to_string(path)
-        .map_err(|error| Diagnostic::io(format!("read `{}`", path.display()), &error).hint(hint))?;
+        .map_err(|error| Diagnostic::unread(format!("`{}`", path.display()), &error).hint(hint))?;
     let refused = |line: usize, what: String| {
         Diagnostic::new("predictions-sequences", Fault::Input, format!("`{}` line {line}: {what}", path.display()))
             .hint(hint)

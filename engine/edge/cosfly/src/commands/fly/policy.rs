@@ -208,11 +208,11 @@ impl PolicyArguments {
 /// The key in a file: its only line.
 fn key_of(file: &Path) -> Result<String> {
     let text = std::fs::read_to_string(file)
-        .map_err(|error| Diagnostic::io(format!("read the key in `{}`", file.display()), &error))?;
+        .map_err(|error| Diagnostic::unread(format!("the key in `{}`", file.display()), &error))?;
     let key = text.trim();
     if key.is_empty() || key.lines().count() > 1 {
         let message = format!("`{}` is not a file with a key", file.display());
-        return Err(Diagnostic::new("fly-policy", Fault::Recipe, message).hint(
+        return Err(Diagnostic::new("fly-policy", Fault::Input, message).hint(
             "put the key into it, on one line and alone, or give it in the environment variable COSFLY_API_KEY",
         ));
     }

@@ -63,7 +63,7 @@ impl Command for Arguments {
         let shown = self.file.display();
         let name = self.file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
         let root =
-            folder.canonicalize().map_err(|error| Diagnostic::io(format!("open the folder of `{shown}`"), &error))?;
+            folder.canonicalize().map_err(|error| Diagnostic::unread(format!("the folder of `{shown}`"), &error))?;
         let (stop, mut stopped) = (console.stop(), None);
         let joined = join(&name, &choice, &mut |path| {
             if let Err(end) = stop.check("map tiles") {

@@ -36,7 +36,7 @@ impl OnnxPolicy {
     /// `fly-onnx`, with what is wrong and what is allowed; errors of the file system.
     pub fn read(path: &Path) -> Result<Self> {
         let shown = path.display();
-        let failed = |error: &std::io::Error| Diagnostic::io(format!("read {shown}"), error);
+        let failed = |error: &std::io::Error| Diagnostic::unread(format!("`{shown}`"), error);
         let refused = |rule: String| {
             Diagnostic::new("fly-onnx", Fault::Input, format!("`{shown}` is no policy in ONNX that cosfly flies"))
                 .because(rule)
