@@ -153,11 +153,52 @@ fn a_full_disk_is_named_and_nothing_half_written_is_trusted() {
     let printed = cosfly(&["run", "recipe.toml", "--quiet", "--store", &store]).within(street.path()).run();
     assert_eq!(printed.code, Some(5), "{}", printed.stderr);
     assert!(
-        printed.stderr.contains("disk-full") && printed.stderr.contains("finished items are kept"),
+        printed.stderr.contains("disk-full") && printed.stderr.contains("finished items of a run are kept"),
         "{}",
         printed.stderr
     );
     assert!(!street.dataset().exists());
+}
+
+#[test]
+fn on_a_full_disk_no_command_leaves_anything_and_none_advises_what_it_lacks() {
+    let street = Street::new();
+    let Some(disk) = small_disk(street.path()) else { return };
+    cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
+    let fly = ["fly", "recipe.toml", "--policy", "follow", "--out", "flown", "--clips", "0"];
+    cosfly(&fly).within(street.path()).run_ok();
+    let ballast = std::fs::File::create(disk.path.join("ballast")).expect("writable");
+    let full = std::io::copy(&mut std::io::repeat(0), &mut &ballast).expect_err("it has an end");
+    assert_eq!(full.kind(), std::io::ErrorKind::StorageFull);
+    for line in [
+        "preview out/street --out disk/new",
+        "preview out/street --out disk/new/in/new",
+        "eval out/street --out disk/new",
+        "export out/street --format coco --out disk/new",
+        "export out/street --format coco --out disk/new/in/new",
+        "view out/street --export disk/new.html",
+        "doctor out/street --out disk/new.json",
+        "carla-job out/street --out disk/new.jsonl",
+        "map convert street.xodr --out disk/new.glb",
+        "map inspect street.xodr --plan disk/new.png",
+        "fly bags flown/follow --out disk/new",
+        "fly bundle flown/follow --out disk/new.jsonl.zst",
+        "run recipe.toml --quiet --out disk/new",
+        "fly recipe.toml --policy follow --out disk/new",
+        "init disk/new",
+        "plugin new --kind cost-term disk/new",
+    ] {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let printed = cosfly(&words).within(street.path()).run();
+        assert_eq!(printed.code, Some(5), "{line}: {}", printed.stderr);
+        assert!(printed.stderr.contains("[disk-full]"), "{line}: {}", printed.stderr);
+        let entries = std::fs::read_dir(&disk.path).expect("a folder").map(|entry| entry.expect("readable").file_name());
+        let names: Vec<String> = entries.map(|name| name.to_string_lossy().into_owned()).collect();
+        assert_eq!(names, ["ballast"], "{line}");
+        let help = cosfly(&[&words[..1], &["--help"]].concat()).run_ok().stdout;
+        let options = printed.stderr.split('`').filter(|word| word.starts_with("--"));
+        options.for_each(|option| assert!(help.contains(option), "{line}: {option}"));
+    }
 }
 
 #[test]

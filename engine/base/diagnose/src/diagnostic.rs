@@ -69,7 +69,7 @@ impl Diagnostic {
         let message = format!("could not {action}");
         let diagnostic = match error.kind() {
             ErrorKind::StorageFull | ErrorKind::QuotaExceeded => Diagnostic::new("disk-full", Fault::DiskFull, message).hint(
-                "free some space or choose another disk with `--store` and `--out`, then run the same command again: finished items are kept",
+                "free some space, or choose another disk for what is written, then run the same command again (finished items of a run are kept)",
             ),
             _ => Diagnostic::new("machine-io", Fault::Machine, message),
         };

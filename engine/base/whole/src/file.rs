@@ -47,10 +47,15 @@ pub fn draft(path: &Path) -> Result<tempfile::NamedTempFile> {
 }
 
 fn write_once(path: &Path, bytes: &[u8]) -> Result<()> {
+    written_draft(path, bytes)?.persist(path).map(|_| ()).map_err(|error| error.error)
+}
+
+/// A [`draft`] with its bytes on the disk.
+pub(crate) fn written_draft(path: &Path, bytes: &[u8]) -> Result<tempfile::NamedTempFile> {
     let mut file = draft(path)?;
     file.write_all(bytes)?;
     file.as_file().sync_data()?;
-    file.persist(path).map(|_| ()).map_err(|error| error.error)
+    Ok(file)
 }
 
 #[cfg(test)]

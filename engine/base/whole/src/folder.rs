@@ -1,5 +1,6 @@
 //! [`NewFolder`]: a folder that is made beside its place and gets its name when it is whole.
 
+use super::file::{write_file, written_draft};
 use std::fs::{self, File};
 use std::io::{Error, ErrorKind, Result};
 use std::path::{Path, PathBuf};
@@ -17,6 +18,8 @@ static NEXT: AtomicUsize = AtomicUsize::new(0);
 pub struct NewFolder {
     draft: PathBuf,
     target: PathBuf,
+    /// Folders around it that were made for it, the innermost first.
+    around: Vec<PathBuf>,
     /// Locked while this process makes the folder.
     mark: Option<File>,
 }
@@ -41,10 +44,17 @@ impl NewFolder {
         let (Some(parent), Some(name)) = (target.parent(), target.file_name()) else {
             return Err(Error::new(ErrorKind::InvalidInput, "it is not the name of a new folder"));
         };
+        let absent = parent.ancestors().take_while(|folder| fs::symlink_metadata(folder).is_err());
+        let mut this = Self {
+            draft: PathBuf::new(),
+            around: absent.map(Path::to_owned).collect(),
+            target: target.clone(),
+            mark: None,
+        };
         fs::create_dir_all(parent)?;
         let prefix = format!(".{}.unfinished", name.to_string_lossy());
         remove_leftovers(parent, &prefix);
-        let draft = loop {
+        this.draft = loop {
             // No name twice: who still looks at a draft of ours finds nothing, not the next one.
             let number = NEXT.fetch_add(1, Ordering::Relaxed);
             let draft = parent.join(format!("{prefix}-{}-{number}", std::process::id()));
@@ -53,7 +63,6 @@ impl NewFolder {
                 made => break made.map(|()| draft)?,
             }
         };
-        let mut this = Self { draft, target, mark: None };
         // Locked before it has its name: nobody sees it without its lock.
         let nameless = this.draft.join(".cosfly-lock");
         let mark = File::create_new(&nameless)?;
@@ -117,9 +126,31 @@ impl NewFolder {
 
 impl Drop for NewFolder {
     fn drop(&mut self) {
-        // After `appear` there is none.
-        let _ = fs::remove_dir_all(&self.draft);
+        // After `appear` there is none; the folders around it are empty where nothing appeared.
+        if self.draft != Path::new("") {
+            let _ = fs::remove_dir_all(&self.draft);
+        }
+        let _ = self.around.iter().try_for_each(fs::remove_dir);
     }
+}
+
+/// Writes files into the folder at `target`, which is made where there is none: all of them, or none where one cannot be written.
+///
+/// # Errors
+/// Failures of the disk.
+pub fn write_files(target: &Path, files: &[(String, &[u8])]) -> Result<()> {
+    if !target.is_dir() {
+        let new = NewFolder::beside(target)?;
+        files.iter().try_for_each(|(name, bytes)| write_file(&new.path().join(name), bytes))?;
+        if new.appear()? == Appeared::Here {
+            return Ok(());
+        }
+    }
+    let drafts = files.iter().map(|(name, bytes)| Ok((written_draft(&target.join(name), bytes)?, target.join(name))));
+    for (draft, path) in drafts.collect::<Result<Vec<_>>>()? {
+        draft.persist(path).map_err(|error| error.error)?;
+    }
+    Ok(())
 }
 
 /// Removes drafts of the same folder whose makers are dead.
@@ -186,6 +217,22 @@ mod tests {
         );
         assert_eq!(names(home.path()), ["empty", "file", "full"]);
         assert_eq!(names(&full), ["mine"]);
+    }
+
+    #[test]
+    fn of_files_that_cannot_all_be_written_none_is_and_no_folder_stays() {
+        let home = tempfile::tempdir().expect("scratch");
+        let (good, bad) = (("a".to_owned(), &b"new"[..]), ("no/such/folder".to_owned(), &b""[..]));
+        let target = home.path().join("around/it/new");
+        write_files(&target, &[good.clone(), bad.clone()]).expect_err("refused");
+        assert_eq!(names(home.path()), [""; 0], "neither the folder nor those around it");
+        write_files(&target, std::slice::from_ref(&good)).expect("written");
+        fs::write(target.join("a"), "old").expect("written");
+        fs::write(target.join("mine"), "").expect("written");
+        write_files(&target, &[good.clone(), bad]).expect_err("refused");
+        assert_eq!((names(&target), fs::read_to_string(target.join("a")).expect("there")), (vec!["a".to_owned(), "mine".to_owned()], "old".to_owned()));
+        write_files(&target, &[good]).expect("written");
+        assert_eq!((names(&target).len(), fs::read_to_string(target.join("a")).expect("there")), (2, "new".to_owned()));
     }
 
     #[test]

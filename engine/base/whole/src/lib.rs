@@ -4,10 +4,10 @@
 //! is made beside its place under a name of its own and renamed, and the rename says who was first.
 //!
 //! * [`write_file`]: a file; [`draft`]: a file that is written piece by piece.
-//! * [`NewFolder`]: a folder; [`Appeared`]: whether it was the first at its place.
+//! * [`NewFolder`]: a folder; [`Appeared`]: whether it was the first at its place; [`write_files`]: a folder of a few files, which may be there.
 
 mod file;
 mod folder;
 
 pub use file::{draft, write_file};
-pub use folder::{Appeared, NewFolder};
+pub use folder::{Appeared, NewFolder, write_files};

@@ -42,10 +42,10 @@ impl OutFolder {
             let message = format!("`{shown}` is not the name of a new folder");
             return Err(Diagnostic::new("export-exists", Fault::Recipe, message));
         }
-        let parent = target.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let refused = |error: std::io::Error| Diagnostic::io(format!("write into `{}`", parent.display()), &error);
-        std::fs::create_dir_all(parent).map_err(refused)?;
-        let is_inside = parent.canonicalize().map_err(refused)?.starts_with(dataset.canonicalize().map_err(refused)?);
+        let refused = |error: std::io::Error| Diagnostic::io(format!("write `{shown}`"), &error);
+        let place = std::path::absolute(target).map_err(refused)?;
+        let around = place.ancestors().skip(1).find(|folder| folder.is_dir()).unwrap_or(&place);
+        let is_inside = around.canonicalize().map_err(refused)?.starts_with(dataset.canonicalize().map_err(refused)?);
         if is_inside {
             let message = format!("`{shown}` lies inside of the dataset");
             return Err(Diagnostic::new("export-inside", Fault::Recipe, message)

@@ -242,12 +242,8 @@ fn folder(arguments: &Arguments) -> PathBuf {
 }
 
 fn write(folder: &Path, reports: &Reports) -> Result<()> {
-    let refused = |path: &Path, error: &std::io::Error| Diagnostic::io(format!("write `{}`", path.display()), error);
-    std::fs::create_dir_all(folder).map_err(|error| refused(folder, &error))?;
-    for (name, text) in [("report.md", &reports.markdown), ("report.json", &reports.json), ("errors.svg", &reports.svg)]
-    {
-        let path = folder.join(name);
-        cosfly_whole::write_file(&path, text.as_bytes()).map_err(|error| refused(&path, &error))?;
-    }
-    Ok(())
+    let files = [("report.md", &reports.markdown), ("report.json", &reports.json), ("errors.svg", &reports.svg)];
+    let files = files.map(|(name, text)| (name.to_owned(), text.as_bytes()));
+    cosfly_whole::write_files(folder, &files)
+        .map_err(|error| Diagnostic::io(format!("write `{}`", folder.display()), &error))
 }

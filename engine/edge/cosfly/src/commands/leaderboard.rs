@@ -10,7 +10,7 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_fly::board::{Bench, Offer, json, judge, page, told};
 use cosfly_runner::RunOptions;
-use cosfly_whole::write_file;
+use cosfly_whole::{write_file, write_files};
 use std::path::{Path, PathBuf};
 
 /// Folders with suites and benchmarks, where none is named.
@@ -110,8 +110,12 @@ fn program() -> Result<Digest> {
 
 /// Writes the page, and makes its folder.
 fn write(path: &Path, page: &str) -> Result<()> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let written = folder.map_or(Ok(()), std::fs::create_dir_all).and_then(|()| write_file(path, page.as_bytes()));
+    let written = match (path.parent().filter(|folder| !folder.as_os_str().is_empty()), path.file_name()) {
+        (Some(folder), Some(name)) if !folder.is_dir() => {
+            write_files(folder, &[(name.to_string_lossy().into_owned(), page.as_bytes())])
+        }
+        _ => write_file(path, page.as_bytes()),
+    };
     written.map_err(|error| Diagnostic::io(format!("write {}", path.display()), &error))
 }
 

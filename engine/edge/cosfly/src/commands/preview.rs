@@ -55,8 +55,9 @@ impl Command for Arguments {
             cosfly_preview::draw(&dataset, flight, self.frames.as_ref(), &mut |done, all| progress(done, all))?;
         drop(progress);
         let out = self.out.clone().unwrap_or_else(|| beside(&self.dir));
-        let written = write(&out, flight, &pictures)?;
-        if let Some(note) = note_source(&out, &dataset)? {
+        let note = note_on_others(&out, &dataset);
+        let written = write(&out, &dataset, flight, &pictures)?;
+        if let Some(note) = note {
             console.tell(&note);
         }
         let text = match self.json {
@@ -75,37 +76,32 @@ fn beside(dataset: &Path) -> PathBuf {
     folder.with_file_name(format!("{name}-preview"))
 }
 
-/// Writes the files; returns their paths and sizes.
-fn write(out: &Path, flight: &PublishedFlight, pictures: &FlightPictures) -> Result<Vec<(PathBuf, u64)>> {
+/// Writes the pictures, with a file that says of which dataset they are; returns their paths and sizes.
+fn write(
+    out: &Path,
+    dataset: &PublishedDataset,
+    flight: &PublishedFlight,
+    pictures: &FlightPictures,
+) -> Result<Vec<(PathBuf, u64)>> {
     let refused = |error: std::io::Error| Diagnostic::io(format!("write pictures to `{}`", out.display()), &error);
-    std::fs::create_dir_all(out).map_err(refused)?;
+    let named = |name: &str| format!("{}-{name}", flight.trajectory_id);
     let files = [("sheet.png", &pictures.sheet), ("clip.gif", &pictures.clip), ("plan.png", &pictures.plan)];
-    let mut written = vec![];
-    for (name, file) in files {
-        let path = out.join(format!("{}-{name}", flight.trajectory_id));
-        cosfly_whole::write_file(&path, file).map_err(refused)?;
-        written.push((path, file.len() as u64));
-    }
-    Ok(written)
+    let files = files.map(|(name, file)| (named(name), &file[..]));
+    let source = format!("{:#}\n", serde_json::json!({ "dataset": dataset.identity().digest() }));
+    let all = [&files[..], &[(SOURCE.to_owned(), source.as_bytes())]].concat();
+    cosfly_whole::write_files(out, &all).map_err(refused)?;
+    Ok(files.iter().map(|(name, file)| (out.join(name), file.len() as u64)).collect())
 }
 
 /// File beside the pictures that says which dataset they are of.
 const SOURCE: &str = "preview.json";
 
-/// Writes down of which dataset the pictures are; a note where earlier pictures in the folder are of another one.
-fn note_source(out: &Path, dataset: &PublishedDataset) -> Result<Option<String>> {
-    let (path, digest) = (out.join(SOURCE), dataset.identity().digest());
-    let before: Option<serde_json::Value> =
-        std::fs::read(&path).ok().and_then(|text| serde_json::from_slice(&text).ok());
-    let other = before.as_ref().and_then(|before| before["dataset"].as_str()).filter(|before| *before != digest);
-    let note = other.map(|other| {
-        let other: String = other.chars().take(12).collect();
-        format!("note: earlier pictures in `{}` are of another dataset, {}", out.display(), visible_text(&other))
-    });
-    let source = serde_json::json!({ "dataset": digest });
-    std::fs::write(&path, format!("{source:#}\n"))
-        .map_err(|error| Diagnostic::io(format!("write `{}`", path.display()), &error))?;
-    Ok(note)
+/// A note where earlier pictures in the folder are of another dataset.
+fn note_on_others(out: &Path, dataset: &PublishedDataset) -> Option<String> {
+    let before: serde_json::Value = serde_json::from_slice(&std::fs::read(out.join(SOURCE)).ok()?).ok()?;
+    let other = before["dataset"].as_str().filter(|before| *before != dataset.identity().digest())?;
+    let other: String = other.chars().take(12).collect();
+    Some(format!("note: earlier pictures in `{}` are of another dataset, {}", out.display(), visible_text(&other)))
 }
 
 /// The pictures for programs.
