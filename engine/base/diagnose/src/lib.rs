@@ -4,6 +4,7 @@
 //! * [`render`], [`render_all`]: diagnostics as text for a terminal.
 //! * [`ParameterError`]: an invalid parameter whose place in a file is not known yet.
 //! * [`visible_text`]: foreign text, made harmless for a terminal.
+//! * [`counted`]: a number of things, `1 frame` or `2 frames`.
 //! * [`nearest_name`]: the known name most similar to a mistyped one.
 //! * [`contained`]: work of a library that may panic on damaged bytes.
 //! * [`plausible`]: the rule for numbers from outside.
@@ -24,6 +25,6 @@ pub use diagnostic::{Diagnostic, Fault, Label, Result};
 pub use nearest::nearest_name;
 pub use parameter::ParameterError;
 pub use plausible::{Implausible, LARGEST_MAGNITUDE, plausible};
-pub use print::{render, render_all};
+pub use print::{counted, render, render_all};
 pub use stop::{Stop, StoppableReader};
 pub use visible::visible_text;

@@ -36,15 +36,18 @@ pub fn render(diagnostic: &Diagnostic, colour: bool) -> String {
     if excerpts.is_empty() { without_gutter(&text, title.lines().count()) } else { text }
 }
 
+/// A number of things, such as `1 frame`, `2 frames` and `2 boxes`; `noun` is the word for one of them.
+pub fn counted(number: impl std::fmt::Display, noun: &str) -> String {
+    let text = format!("{number} {noun}{}", if noun.ends_with('x') { "es" } else { "s" });
+    if text.starts_with("1 ") { format!("1 {noun}") } else { text }
+}
+
 /// Text of several diagnostics, separated by blank lines, with their number at the end.
 pub fn render_all<'a>(diagnostics: impl IntoIterator<Item = &'a Diagnostic>, colour: bool) -> String {
     let all: Vec<&Diagnostic> = diagnostics.into_iter().collect();
     let mut pieces: Vec<String> = all.iter().take(MOST_AT_ONCE).map(|diagnostic| render(diagnostic, colour)).collect();
-    if all.len() > MOST_AT_ONCE {
-        pieces.push(format!("{} errors; the first {MOST_AT_ONCE} are shown", all.len()));
-    } else if all.len() > 1 {
-        pieces.push(format!("{} errors", all.len()));
-    }
+    let hidden = (all.len() > MOST_AT_ONCE).then(|| format!("; the first {MOST_AT_ONCE} are shown"));
+    pieces.extend((all.len() > 1).then(|| format!("{} errors{}", all.len(), hidden.unwrap_or_default())));
     pieces.join("\n\n")
 }
 
@@ -96,6 +99,12 @@ fn without_gutter(text: &str, title_lines: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn one_thing_is_one_and_all_other_numbers_are_several() {
+        let shown = [(1, "frame"), (0, "frame"), (11, "box"), (1, "box")].map(|(number, noun)| counted(number, noun));
+        assert_eq!(shown, ["1 frame", "0 frames", "11 boxes", "1 box"]);
+    }
 
     #[test]
     fn long_text_breaks_at_spaces_and_keeps_its_words() {

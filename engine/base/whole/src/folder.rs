@@ -230,7 +230,10 @@ mod tests {
         fs::write(target.join("a"), "old").expect("written");
         fs::write(target.join("mine"), "").expect("written");
         write_files(&target, &[good.clone(), bad]).expect_err("refused");
-        assert_eq!((names(&target), fs::read_to_string(target.join("a")).expect("there")), (vec!["a".to_owned(), "mine".to_owned()], "old".to_owned()));
+        assert_eq!(
+            (names(&target), fs::read_to_string(target.join("a")).expect("there")),
+            (vec!["a".to_owned(), "mine".to_owned()], "old".to_owned())
+        );
         write_files(&target, &[good]).expect("written");
         assert_eq!((names(&target).len(), fs::read_to_string(target.join("a")).expect("there")), (2, "new".to_owned()));
     }

@@ -72,8 +72,7 @@ impl GivenTexts {
     /// # Errors
     /// `doctor-texts` names the line; errors of the machine.
     pub fn read(path: &Path) -> Result<Self> {
-        let bytes =
-            std::fs::read(path).map_err(|error| Diagnostic::unread(format!("`{}`", path.display()), &error))?;
+        let bytes = std::fs::read(path).map_err(|error| Diagnostic::unread(format!("`{}`", path.display()), &error))?;
         let mut texts = Self::default();
         for (number, line) in String::from_utf8_lossy(&bytes).lines().enumerate() {
             if line.trim().is_empty() {

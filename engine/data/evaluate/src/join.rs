@@ -2,6 +2,7 @@
 
 use crate::settings::{InputRole, Settings};
 use crate::windows::{Flights, WindowSet};
+use cosfly_diagnose::counted;
 use cosfly_read::predictions::{PredictionRow, Predictions, RowProblem};
 
 /// No prediction.
@@ -75,17 +76,17 @@ fn window_of(
     }
     let horizon = windows.shape.horizon;
     if row.deltas.len() != horizon {
-        return Err(("length", format!("{} waypoints; {horizon} were expected", row.deltas.len())));
+        return Err(("length", format!("{}; {horizon} were expected", counted(row.deltas.len(), "waypoint"))));
     }
     if !row.boxes.is_empty() && row.boxes.len() != horizon {
-        return Err(("length", format!("{} boxes; {horizon} were expected", row.boxes.len())));
+        return Err(("length", format!("{}; {horizon} were expected", counted(row.boxes.len(), "box"))));
     }
     let frames = flights.rows[flight].frames;
     let start = usize::try_from(row.frame).unwrap_or(usize::MAX);
     if windows.shape.number(start, frames).is_none() {
         let last = windows.shape.count(frames).checked_sub(1).map(|last| last * windows.shape.stride);
         let reason = match last {
-            None => format!("`{id}` has {frames} frames, too few for a window"),
+            None => format!("`{id}` has {frames}, too few for a window", frames = counted(frames, "frame")),
             Some(last) => format!(
                 "no window of `{id}` starts at frame {}: they start every {} frames from 0 to {last}",
                 row.frame, windows.shape.stride

@@ -1,7 +1,7 @@
 //! The windows of a dataset: inputs of models, and the truth.
 
 use crate::settings::{InputRole, Settings};
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, counted};
 use cosfly_frames::Pose;
 use cosfly_metrics::baselines::{Anchor, InputFrames};
 use cosfly_read::{FlightTrack, PublishedDataset, PublishedFlight, RowIndex};
@@ -90,7 +90,8 @@ impl Flights {
         for flight in flights {
             let frames = self.rows[self.expert[*flight]].frames;
             if let Some(frame) = tracks[flight].expert_frame.iter().find(|frame| **frame as usize >= frames) {
-                let what = format!("belongs to frame {frame} of an expert with {frames} frames");
+                let what =
+                    format!("belongs to frame {frame} of an expert with {frames}", frames = counted(frames, "frame"));
                 return Err(damaged(&self.rows[*flight], &what));
             }
         }

@@ -341,7 +341,7 @@ fn depths_that_are_no_number_are_counted_and_said() {
     assert_eq!((nonsense.frames, nonsense.first.as_deref()), (3, Some("expert-p00000/0.npy")));
     assert!(nonsense.pixels > 0);
     assert!(
-        found.to_markdown().contains("scored pixels of 3 frames have a depth that is not a number"),
+        found.to_markdown().contains("scored pixels in 3 frames: a depth that is not a number"),
         "{}",
         found.to_markdown()
     );

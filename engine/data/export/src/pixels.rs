@@ -1,6 +1,6 @@
 //! Colour images decoded and made smaller; labels, ids and depths encoded as pictures and as NumPy files.
 
-use cosfly_diagnose::{Diagnostic, Fault, Result, contained};
+use cosfly_diagnose::{Diagnostic, Fault, Result, contained, counted};
 use cosfly_domain::channels::Element;
 use cosfly_domain::{Channel, ChannelImage};
 use cosfly_images::read::decoded;
@@ -17,7 +17,7 @@ pub fn rgb_of(logged: &LoggedFrame) -> Result<Vec<u8>> {
     let bytes = 3 * logged.width as usize * logged.height as usize;
     let checked = decoded.and_then(|rgb| match rgb.len() == bytes {
         true => Ok(rgb),
-        false => Err(format!("it has {} bytes of colours, not {bytes}", rgb.len())),
+        false => Err(format!("it has {} of colours, not {bytes}", counted(rgb.len(), "byte"))),
     });
     checked.map_err(|cause| {
         let message = format!("the colour image of frame {} cannot be read", logged.target.frame);

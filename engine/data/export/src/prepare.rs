@@ -3,7 +3,7 @@
 use crate::format::{Export, Prepared};
 use crate::formats::FORMATS;
 use crate::option::{ExportOption, foreign};
-use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
+use cosfly_diagnose::{Diagnostic, Fault, Result, counted, nearest_name};
 use serde_json::{Map, Value};
 
 /// The format `name` with `options`; those that are absent have their defaults.
@@ -69,7 +69,12 @@ pub fn on_threads<R: Send>(count: Option<u16>, work: impl FnOnce() -> R + Send) 
     let Some(count) = count else { return Ok(work()) };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(count)).build();
     let pool = pool.map_err(|error| {
-        Diagnostic::new("machine-threads", Fault::Machine, format!("could not start {count} threads")).because(error)
+        Diagnostic::new(
+            "machine-threads",
+            Fault::Machine,
+            format!("could not start {count}", count = counted(count, "thread")),
+        )
+        .because(error)
     })?;
     Ok(pool.install(work))
 }

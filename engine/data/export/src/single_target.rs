@@ -2,10 +2,10 @@
 
 use crate::sequence::Sequence;
 use crate::source::{ExportedFlight, Source};
+use cosfly_diagnose::counted;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::BodyKind;
 use cosfly_read::FrameRow;
-use cosfly_schema::card_text::counted;
 
 /// What cards say about these sequences.
 pub const CARD: &str = "\

@@ -118,7 +118,7 @@ impl<'a> Source<'a> {
     /// Remarks about instructions that are not what was asked for.
     pub fn remarks(&self) -> Vec<String> {
         let [other, plain] = &*self.fallen_back.borrow();
-        let flights = |ids: &BTreeSet<String>| cosfly_schema::card_text::counted(ids.len() as u64, "flight");
+        let flights = |ids: &BTreeSet<String>| cosfly_diagnose::counted(ids.len(), "flight");
         let remarks = [
             (other, "without a caption in the language asked for: the instruction is in another one"),
             (plain, "without a caption: the instruction is the same plain sentence for all, and singles nobody out"),

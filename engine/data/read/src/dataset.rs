@@ -10,7 +10,6 @@ use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
 use cosfly_schema::Split;
 use cosfly_schema::tables::Rejected;
 use std::collections::BTreeMap;
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -191,7 +190,7 @@ impl PublishedDataset {
 }
 
 fn no_dataset(folder: &Path, rejections: &BTreeMap<String, String>) -> Box<Diagnostic> {
-    let shown = folder.display();
+    let (shown, is_file) = (folder.display(), folder.is_file());
     if !rejections.is_empty() {
         let message = format!("`{shown}` has no flights: {} were planned and left out", rejections.len());
         let refusal = Diagnostic::new("dataset-none", Fault::Input, message);
@@ -199,11 +198,10 @@ fn no_dataset(folder: &Path, rejections: &BTreeMap<String, String>) -> Box<Diagn
         let refusal = rejections.iter().take(3).map(reason).fold(refusal, Diagnostic::because);
         return refusal.hint("change the recipe, and run it again; table `rejected` has all reasons");
     }
-    let message = match folder.metadata() {
-        Err(error) if error.kind() == ErrorKind::NotFound => format!("`{shown}` does not exist"),
-        Err(error) => format!("`{shown}` cannot be read: {error}"),
-        Ok(found) if found.is_file() => format!("`{shown}` is a file, not the folder of a dataset"),
-        Ok(_) => format!("`{shown}` is not a published dataset: it has no table `trajectories`"),
+    let message = match (folder.exists(), is_file) {
+        (false, _) => format!("`{shown}` does not exist"),
+        (true, true) => format!("`{shown}` is a file, not the folder of a dataset"),
+        (true, false) => format!("`{shown}` is not a published dataset: it has no table `trajectories`"),
     };
     let refusal = Diagnostic::new("dataset-none", Fault::Input, message);
     match folder.extension().and_then(|extension| extension.to_str()) {

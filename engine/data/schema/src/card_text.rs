@@ -27,20 +27,14 @@ fn names(text: &str) -> impl Iterator<Item = &str> {
     open.filter(|name| !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_lowercase() || byte == b'_'))
 }
 
-/// A number with a noun, such as `1 flight` and `8 flights`.
-pub fn counted(count: u64, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn facts_stand_where_their_names_were() {
-        let facts = BTreeMap::from([("towns", "Town02".to_owned()), ("flights", counted(8, "flight"))]);
+        let facts = BTreeMap::from([("towns", "Town02".to_owned()), ("flights", "8 flights".to_owned())]);
         assert_eq!(filled("{flights} in {towns}, {towns} {x}", &facts), "8 flights in Town02, Town02 {x}");
-        assert_eq!(counted(1, "flight"), "1 flight");
         assert_eq!((unknown_fact("{towns} {Ab} {} {flight} {pets}"), unknown_fact("{ {")), (Some("flight"), None));
     }
 }

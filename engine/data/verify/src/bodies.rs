@@ -5,6 +5,7 @@ use super::files::CheckedFiles;
 use super::flight_list::FlightList;
 use super::report::VerifyReport;
 use super::rows::{self, PlacedFlight, PlacedFrame, split_of};
+use cosfly_diagnose::counted;
 use cosfly_domain::BodyKind;
 use cosfly_frames::{DVec3, real};
 use cosfly_read::{RowIndex, SpaceRow};
@@ -199,7 +200,10 @@ fn box_problem(flight: &PlacedFlight, frame: &PlacedFrame, body: &PlacedBody) ->
         (0, None, _) => return None,
         (1.., Some(seen), Some(_)) => seen,
         (pixels, ..) => {
-            return Some(format!("{pixels} pixels are seen: with pixels there are a box and an id, without none"));
+            return Some(format!(
+                "it is seen in {}: with pixels there are a box and an id, without none",
+                counted(pixels, "pixel")
+            ));
         }
     };
     let hull = body.space.hull(flight, &frame.camera_pose)?;

@@ -5,6 +5,7 @@ use crate::report::VerifyReport;
 use crate::rows::{self, ReadResult};
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, Int64Type};
+use cosfly_diagnose::counted;
 use cosfly_domain::{ObstacleKind, OrientedBox, SemanticLabel};
 use cosfly_frames::{DMat3, DQuat, DVec3, Pose, real};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
@@ -207,10 +208,10 @@ fn each_flight(path: &Path, visit: &mut dyn FnMut(&str, &mut [Sweep])) -> ReadRe
 fn points_of(cloud: &[u8], count: Option<i64>) -> ReadResult<Vec<CloudPoint>> {
     let (points, rest) = cloud.as_chunks::<POINT_BYTES>();
     if !rest.is_empty() {
-        return Err(format!("column `{COLUMN}` has {} bytes, no multiple of {POINT_BYTES}", cloud.len()));
+        return Err(format!("column `{COLUMN}` has {}, no multiple of {POINT_BYTES}", counted(cloud.len(), "byte")));
     }
     if let Some(count) = count.filter(|count| usize::try_from(*count) != Ok(points.len())) {
-        return Err(format!("column `points` says {count}, column `{COLUMN}` has {} points", points.len()));
+        return Err(format!("column `points` says {count}, column `{COLUMN}` has {}", counted(points.len(), "point")));
     }
     let points: Vec<CloudPoint> = points.iter().map(CloudPoint::of).collect();
     match points.iter().position(|point| !point.is_finite()) {
@@ -225,12 +226,15 @@ fn points_of(cloud: &[u8], count: Option<i64>) -> ReadResult<Vec<CloudPoint>> {
 /// The first difference, in words.
 fn compare(sweeps: &[Sweep], logged: &[LoggedSweep], begins_ns: u64) -> ReadResult<()> {
     if sweeps.len() != logged.len() {
-        return Err(format!("it has {} sweeps, the table has {}", logged.len(), sweeps.len()));
+        return Err(format!("it has {}, the table has {}", counted(logged.len(), "sweep"), sweeps.len()));
     }
     for (number, (sweep, logged)) in sweeps.iter().zip(logged).enumerate() {
         if sweep.points.len() != logged.points.len() {
             let [here, there] = [logged.points.len(), sweep.points.len()];
-            return Err(format!("sweep {number} has {here} points, that of the table has {there}"));
+            return Err(format!(
+                "sweep {number} has {here}, that of the table has {there}",
+                here = counted(here, "point")
+            ));
         }
         let at_s = (logged.time_ns as f64 - begins_ns as f64) / 1e9;
         let off_m = logged.position.distance(sweep.position * DVec3::new(1.0, -1.0, 1.0));

@@ -2,7 +2,7 @@
 
 use super::report::VerifyReport;
 use super::rows;
-use cosfly_diagnose::{Diagnostic, Result, Stop};
+use cosfly_diagnose::{Diagnostic, Result, Stop, counted};
 use cosfly_fingerprint::sha256::sha256_of_reader;
 use cosfly_read::inner_path;
 use cosfly_schema::tables::FileRecord;
@@ -224,7 +224,7 @@ fn check_file(folder: &Path, file: &Expected<'_>, stop: &Stop, report: &mut Veri
 }
 
 fn size_message(size: u64, listed: u64) -> String {
-    format!("it has {size} bytes; {listed} are listed")
+    format!("it has {size}; {listed} are listed", size = counted(size, "byte"))
 }
 
 /// The size of a file that can be read to its end: pipes, devices and folders are findings and never opened.

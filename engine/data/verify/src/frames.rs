@@ -5,6 +5,7 @@ use super::boxes::box_problem;
 use super::report::VerifyReport;
 use super::rows::{PlacedFlight, PlacedFrame};
 use super::tables::{Extent, PairRow, digest};
+use cosfly_diagnose::counted;
 use cosfly_frames::DVec3;
 use cosfly_metrics::spread::APART_M;
 use std::collections::{BTreeMap, BTreeSet};
@@ -16,7 +17,8 @@ pub const TOLERANCE: f64 = 1e-6;
 pub fn check_frames(file: &str, flight: &PlacedFlight, frames: &[PlacedFrame], report: &mut VerifyReport) {
     let id = &flight.trajectory_id;
     if frames.len() != flight.frames {
-        let message = format!("{} rows; table `trajectories` says {} frames", frames.len(), flight.frames);
+        let message =
+            format!("{}; table `trajectories` says {}", counted(frames.len(), "row"), counted(flight.frames, "frame"));
         report.find(file, format!("`{id}`"), "verify-count", message);
     }
     for (number, frame) in frames.iter().enumerate() {

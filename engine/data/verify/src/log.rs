@@ -9,7 +9,7 @@ use super::ground::BodiesOnGround;
 use super::report::VerifyReport;
 use super::rows::{PlacedFlight, PlacedFrame};
 use ::mcap::records::Record;
-use cosfly_diagnose::Stop;
+use cosfly_diagnose::{Stop, counted};
 use cosfly_domain::channels::{ChannelSource, Element, depth};
 use cosfly_domain::{Channel, ChannelSet, SemanticLabel, TARGET_INSTANCE, channels};
 use cosfly_frames::{DQuat, DVec3};
@@ -124,7 +124,11 @@ impl LogCheck<'_> {
                 self.is_ours = metadata.metadata.get("trajectory_id") == Some(&self.flight.trajectory_id);
                 let boxes = metadata.metadata.get(BODIES_3D_ROWS);
                 if let Some(boxes) = boxes.filter(|boxes| **boxes != self.known.boxes.to_string()) {
-                    let message = format!("it had {boxes} rows in table `bodies_3d`; there are {}", self.known.boxes);
+                    let message = format!(
+                        "it had {boxes} in table `bodies_3d`; there are {}",
+                        self.known.boxes,
+                        boxes = counted(boxes, "row")
+                    );
                     self.find(String::new(), "verify-3d", message);
                 }
             }
@@ -272,22 +276,25 @@ impl LogCheck<'_> {
             let (count, found) = (seen.len() as u32, edges(&seen, width));
             if (count, found) != (body.pixels, body.visible_box) {
                 let message = format!(
-                    "{count} pixels of id {instance} in {found:?}; table `bodies` says {} in {:?}",
-                    body.pixels, body.visible_box
+                    "{count} of id {instance} in {found:?}; table `bodies` says {} in {:?}",
+                    body.pixels,
+                    body.visible_box,
+                    count = counted(count, "pixel")
                 );
                 return (of_target, Some(message));
             }
         }
         if let Some((id, seen)) = pixels.first_key_value() {
             let count = seen.len();
-            let message = format!("{count} pixels have the id {id}, which is neither in `objects` nor in `bodies`");
+            let message = format!("id {id}, of {}, is neither in `objects` nor in `bodies`", counted(count, "pixel"));
             return (of_target, Some(message));
         }
         let problem = (count != row.visible_pixels || found != row.visible_box()).then(|| {
             format!(
-                "{count} pixels of the target in {found:?}; table `frames` says {} in {:?}",
+                "{count} of the target in {found:?}; table `frames` says {} in {:?}",
                 row.visible_pixels,
-                row.visible_box()
+                row.visible_box(),
+                count = counted(count, "pixel")
             )
         });
         (of_target, problem)
@@ -378,7 +385,7 @@ impl LogCheck<'_> {
                 self.find(
                     format!("`{topic}`"),
                     "verify-count",
-                    format!("{count} messages for {} frames", self.frames.len()),
+                    format!("{count} for {}", counted(self.frames.len(), "frame"), count = counted(count, "message")),
                 );
             }
         }
@@ -388,8 +395,11 @@ impl LogCheck<'_> {
             self.find(format!("`{}`", topic::CAPTIONS), "verify-count", message);
         }
         if self.messages != self.flight.mcap_messages {
-            let message =
-                format!("{} messages; table `trajectories` says {}", self.messages, self.flight.mcap_messages);
+            let message = format!(
+                "{}; table `trajectories` says {}",
+                counted(self.messages, "message"),
+                self.flight.mcap_messages
+            );
             self.find(String::new(), "verify-count", message);
         }
     }

@@ -71,7 +71,7 @@ pub fn check_frames(flight: &PlacedFlight, frames: &[PlacedFrame], report: &mut 
     };
     let in_view = frames.iter().filter(|frame| frame.in_view).count();
     if in_view != figures.frames_in_view as usize {
-        find("verify-figures", format!("`frames_in_view` is {}; {in_view} frames are", figures.frames_in_view));
+        find("verify-figures", format!("`frames_in_view` is {}; counted are {in_view}", figures.frames_in_view));
     }
     for ((column, found), expected) in MEANS.into_iter().zip(figures.means).zip(of_frames(frames)) {
         if !is_near(found, expected) {

@@ -6,7 +6,7 @@ use super::flight_list::FlightList;
 use super::report::VerifyReport;
 use super::rows::{self, PlacedFlight, ReadResult};
 use super::sums;
-use cosfly_diagnose::Result;
+use cosfly_diagnose::{Result, counted};
 use cosfly_metrics::spread::{APART_M, widest_gap_m};
 use cosfly_read::{Rows, Shared};
 use cosfly_schema::tables::{self, Objects, Pairs, Rejected, TargetLosses};
@@ -122,7 +122,8 @@ fn read_flights(folder: &Path, files: &CheckedFiles, report: &mut VerifyReport) 
     let flights = FlightList::of(flights, report);
     let logs = files.logs().count();
     if logs != flights.len() {
-        let message = format!("{} flights, but {logs} logs in `files.parquet`", flights.len());
+        let message =
+            format!("{}, but {logs} in `files.parquet`", counted(flights.len(), "flight"), logs = counted(logs, "log"));
         report.find("data/trajectories", "", "verify-count", message);
     }
     flights

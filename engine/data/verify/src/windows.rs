@@ -4,6 +4,7 @@ use super::flight_list::FlightList;
 use super::flights::Flights;
 use super::report::VerifyReport;
 use super::rows::{self, split_of};
+use cosfly_diagnose::counted;
 use cosfly_frames::Pose;
 use cosfly_frames::action;
 use cosfly_read::{FlightTrack, Rows};
@@ -251,7 +252,10 @@ impl Windows<'_> {
             let found = self.counts[number] as usize;
             if found != expected {
                 let place = format!("row {}, `{}`", flight.place.1, flight.trajectory_id);
-                let message = format!("table `windows` has {found} windows of it; there are {expected}");
+                let message = format!(
+                    "table `windows` has {found} of it; there are {expected}",
+                    found = counted(found, "window")
+                );
                 report.find(&flight.place.0, place, "verify-count", message);
             }
         }
@@ -307,7 +311,7 @@ impl Cut<'_> {
             if stored.len() != 4 * frames.len() {
                 return Err((
                     "verify-window",
-                    format!("`{name}` has {} numbers for {} frames", stored.len(), frames.len()),
+                    format!("`{name}` has {} for {}", counted(stored.len(), "number"), counted(frames.len(), "frame")),
                 ));
             }
             for (at, (found, (track, frame))) in stored.chunks_exact(4).zip(frames).enumerate() {

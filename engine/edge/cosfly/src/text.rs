@@ -4,7 +4,7 @@ use std::time::Duration;
 
 /// `1 item`, `2 items`.
 pub fn count(number: u64, noun: &str) -> String {
-    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
+    cosfly_diagnose::counted(number, noun)
 }
 
 /// Bytes with a decimal unit and two or three digits.

@@ -1,6 +1,6 @@
 //! Models, mesh and splats of a `render` stage: files of the recipe, checked before any stage runs.
 
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, counted};
 use cosfly_domain::{Town, Trajectory};
 use cosfly_frames::DVec3;
 use cosfly_models::Model;
@@ -107,7 +107,8 @@ pub fn read_mesh(config: &MeshConfig, path: &Path, beside: &[PathBuf], world_ori
             |error: std::io::Error| Diagnostic::unread(format!("the mesh's file `{}`", path.display()), &error);
         let length = std::fs::metadata(path).map_err(unreadable)?.len();
         if length > MOST_MESH_BYTES {
-            let message = format!("the file has {length} bytes; at most {MOST_MESH_BYTES} are read");
+            let message =
+                format!("the file has {length}; at most {MOST_MESH_BYTES} are read", length = counted(length, "byte"));
             return Err(refused(MapError::new(message).hint("cut the scene into pieces, or simplify it")));
         }
         std::fs::read(path).map_err(unreadable)
@@ -134,7 +135,8 @@ fn read_splats(path: &Path) -> Result<SplatCloud> {
     let unreadable = |error: std::io::Error| Diagnostic::unread(format!("the splats `{shown}`"), &error);
     let length = std::fs::metadata(path).map_err(unreadable)?.len();
     if length > MOST_SPLAT_BYTES {
-        let message = format!("the file has {length} bytes; at most {MOST_SPLAT_BYTES} are read");
+        let message =
+            format!("the file has {length}; at most {MOST_SPLAT_BYTES} are read", length = counted(length, "byte"));
         let refused = Diagnostic::new("splats-refused", Fault::Input, message).because(format!("in `{shown}`"));
         return Err(refused.hint("cut the scene into pieces, or prune it in an editor of splats such as SuperSplat"));
     }

@@ -4,7 +4,7 @@ use crate::bundle::{Bundle, EpisodeRecord};
 use crate::flight::{FlownEpisode, fly_by};
 use crate::pilot::{Failure, Runnable};
 use crate::suite::{EpisodeTask, Suite};
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, counted};
 use cosfly_env::{Environment, EnvironmentSettings};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -72,7 +72,11 @@ impl Again<'_> {
         }
         if bundle.episodes.len() != suite.tasks.len() {
             let (theirs, ours) = (bundle.episodes.len(), suite.tasks.len());
-            let message = format!("the bundle has {theirs} episodes, the suite `{}` has {ours}", suite.name);
+            let message = format!(
+                "the bundle has {theirs}, the suite `{}` has {ours}",
+                suite.name,
+                theirs = counted(theirs, "episode")
+            );
             return Err(Diagnostic::new("fly-bundle", Fault::Input, message));
         }
         let one = |done: &mut Sender<()>, task: &EpisodeTask| {
@@ -117,7 +121,10 @@ fn difference(name: &str, flown: std::result::Result<FlownEpisode, String>, reco
     }
     if again.steps.len() != record.steps.len() {
         let (ours, theirs) = (again.steps.len(), record.steps.len());
-        return Some(format!("`{name}`: it ends after {ours} steps, in the record after {theirs}"));
+        return Some(format!(
+            "`{name}`: it ends after {ours}, in the record after {theirs}",
+            ours = counted(ours, "step")
+        ));
     }
     let (ours, theirs) = (again.row_text(), record.row_text());
     (ours != theirs).then(|| format!("`{name}`: all steps are equal, the row is not: {ours} instead of {theirs}"))

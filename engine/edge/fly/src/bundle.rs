@@ -9,7 +9,7 @@ use crate::pilot::{OnnxPolicy, wrong_number};
 use crate::results::{Card, Folder};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, counted};
 use cosfly_env::Action;
 use cosfly_fingerprint::Digest;
 use serde::{Deserialize, Serialize};
@@ -247,7 +247,7 @@ impl Bundle {
         let mut lines = text.lines().zip(1..);
         let head = lines.next().map_or("", |it| it.0);
         if head.len() > MOST_WORDS[0] {
-            return Err(format!("its first line has {} bytes; it may have {}", head.len(), MOST_WORDS[0]));
+            return Err(format!("its first line has {}; it may have {}", counted(head.len(), "byte"), MOST_WORDS[0]));
         }
         let format = serde_json::from_str::<serde_json::Value>(head).ok();
         let format = format.as_ref().and_then(|head| head["format"].as_str()).unwrap_or("nothing").to_owned();

@@ -1,7 +1,7 @@
 //! [`Suite`]: the episodes of a recipe, with the experts' flights.
 
 use crate::settings::FlySettings;
-use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
+use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result, counted};
 use cosfly_domain::{PlanOutcome, Town};
 use cosfly_env::policies::Knowledge;
 use cosfly_env::{Episode, FlightSite, Others, Start};
@@ -153,7 +153,7 @@ impl Suite {
             let message = format!("`{}` has no episode: the expert found no flight", recipe.path.display());
             let walks = walkers(recipe, &stages).join("`, `");
             return Err(Diagnostic::new("fly-no-episode", Fault::Recipe, message)
-                .because(format!("none behind {} walks", suite.rejected))
+                .because(format!("none behind {}", counted(suite.rejected, "walk")))
                 .hint(format!(
                     "`cosfly run` on the recipe says why; more walks may have some: a larger `count` of `{walks}`"
                 )));

@@ -3,6 +3,7 @@
 //! An array is a map with the byte-string keys `__ndarray__` (true), `data` (bytes in C order), `dtype` (numpy's short string, such
 //! as `<f4`) and `shape`.
 
+use cosfly_diagnose::counted;
 use rmpv::Value;
 
 /// Largest message that is accepted, bytes.
@@ -72,7 +73,7 @@ pub fn decode(bytes: &[u8]) -> Result<Value, String> {
     let mut rest = bytes;
     let value = rmpv::decode::read_value_with_max_depth(&mut rest, DEEPEST)
         .map_err(|error| format!("the message is not msgpack: {error}"))?;
-    if rest.is_empty() { Ok(value) } else { Err(format!("{} bytes follow the message", rest.len())) }
+    if rest.is_empty() { Ok(value) } else { Err(format!("{} follow the message", counted(rest.len(), "byte"))) }
 }
 
 /// The refusal of a message that is too long, in words.
@@ -162,7 +163,10 @@ fn of_numpy(value: &Value) -> Result<(Vec<f64>, Vec<usize>), String> {
         ($type:ty, $from:ident) => {{
             let (chunks, rest) = data.as_chunks::<{ size_of::<$type>() }>();
             if chunks.len() != count || !rest.is_empty() {
-                return Err(format!("an array of shape {shape:?} and type `{dtype}` with {} bytes", data.len()));
+                return Err(format!(
+                    "an array of shape {shape:?} and type `{dtype}` with {}",
+                    counted(data.len(), "byte")
+                ));
             }
             chunks.iter().map(|bytes| <$type>::$from(*bytes) as f64).collect()
         }};

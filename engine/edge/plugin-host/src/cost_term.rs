@@ -5,7 +5,7 @@ use crate::interface_0_1::{RunContext, TermShape};
 use crate::plugin::Plugin;
 use crate::term_border::TermBorder;
 use crate::town::TownView;
-use cosfly_diagnose::{LARGEST_MAGNITUDE, plausible};
+use cosfly_diagnose::{LARGEST_MAGNITUDE, counted, plausible};
 use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_planner::{CostTerm, TermContext, Walk};
 use cosfly_surroundings::visibility::body_points;
@@ -133,7 +133,7 @@ impl Running {
         let gradients = want_gradients.then_some(&self.gradients[..]);
         let checked = match answer {
             Ok(count) if count == waypoints.len() => check(costs, gradients, waypoints),
-            Ok(count) => Err(format!("it returned {count} costs for {} waypoints", waypoints.len())),
+            Ok(count) => Err(format!("it returned {count} costs for {}", counted(waypoints.len(), "waypoint"))),
             Err(refusal) => Err(refusal.words()),
         };
         checked.map_err(|message| PluginError::failed(self.border.sandbox().shown(), "evaluate", message))
@@ -149,7 +149,11 @@ fn check(costs: &[f64], gradients: Option<&[f64]>, waypoints: &[DVec3]) -> Resul
     }
     let Some(gradients) = gradients else { return Ok(()) };
     if gradients.len() != 3 * waypoints.len() {
-        let message = format!("it returned {} numbers of gradients for {} waypoints", gradients.len(), waypoints.len());
+        let message = format!(
+            "it returned {} of gradients for {}",
+            counted(gradients.len(), "number"),
+            counted(waypoints.len(), "waypoint")
+        );
         return Err(format!("{message}; there must be 3 per waypoint"));
     }
     if let Some(at) = first_wrong(gradients, SIGN, |slope| plausible(*slope).is_ok()) {

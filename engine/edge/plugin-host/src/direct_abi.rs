@@ -2,6 +2,7 @@
 //! cost terms need. Nothing that the module says of its memory is trusted.
 
 use crate::interface_0_1::{Metadata, Refusal};
+use cosfly_diagnose::counted;
 use cosfly_frames::DVec3;
 use std::mem::offset_of;
 use std::ops::Range;
@@ -24,7 +25,7 @@ impl DirectAbi {
         let at = self.realloc.call(&mut store, (0, 0, align, size))?;
         let end = at as usize + bytes;
         if !at.is_multiple_of(align) || end > self.memory.data_size(&store) {
-            bail!("`cabi_realloc` gave the address {at} for {bytes} bytes");
+            bail!("`cabi_realloc` gave the address {at} for {bytes}", bytes = counted(bytes, "byte"));
         }
         Ok((at, at as usize..end))
     }
@@ -164,7 +165,7 @@ impl Answer<'_> {
 fn slice(memory: &[u8], at: u32, bytes: usize) -> Result<&[u8]> {
     match memory.get(at as usize..).and_then(|rest| rest.get(..bytes)) {
         Some(slice) => Ok(slice),
-        None => bail!("it gives {bytes} bytes at the address {at}, outside its memory"),
+        None => bail!("it gives {bytes} at the address {at}, outside its memory", bytes = counted(bytes, "byte")),
     }
 }
 

@@ -4,6 +4,7 @@ use crate::direct_abi::DirectAbi;
 use crate::interface_0_1::Severity;
 use crate::sandbox::Guest;
 use crate::town::TownView;
+use cosfly_diagnose::counted;
 use cosfly_frames::DVec3;
 use wasmtime::component::Linker;
 use wasmtime::{Caller, Engine, Result, StoreContextMut, bail};
@@ -110,7 +111,7 @@ fn distances(town: &dyn TownView, given: &[f64], within: f64) -> Result<Vec<f64>
 fn ground(town: &dyn TownView, places: &[f64]) -> Result<Vec<f64>> {
     let (pairs, rest) = places.as_chunks::<2>();
     if !rest.is_empty() {
-        bail!("`ground` was given {} numbers; it takes 2 per place", places.len());
+        bail!("`ground` was given {}; it takes 2 per place", counted(places.len(), "number"));
     }
     Ok(pairs.iter().map(|[x, y]| town.ground_m(*x, *y).unwrap_or(f64::NAN)).collect())
 }
@@ -126,7 +127,7 @@ fn buildings(town: &dyn TownView) -> Vec<f64> {
 fn points(function: &str, numbers: &[f64]) -> Result<Vec<DVec3>> {
     let (triples, rest) = numbers.as_chunks::<3>();
     if !rest.is_empty() {
-        bail!("`{function}` was given {} numbers; it takes 3 per point", numbers.len());
+        bail!("`{function}` was given {}; it takes 3 per point", counted(numbers.len(), "number"));
     }
     Ok(triples.iter().map(|triple| DVec3::from_array(*triple)).collect())
 }

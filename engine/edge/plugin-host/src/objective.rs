@@ -6,7 +6,7 @@ use crate::plugin::Plugin;
 use crate::sandbox::Said;
 use crate::session::Session;
 use crate::town::TownView;
-use cosfly_diagnose::{plausible, visible_text};
+use cosfly_diagnose::{counted, plausible, visible_text};
 use std::sync::Arc;
 use wasmtime::component::TypedFunc;
 
@@ -58,12 +58,14 @@ fn check(plan: &Plan, max_steps: usize) -> Result<(), String> {
     for (name, length) in [("watched", plan.watched.len()), ("places", plan.places.len())] {
         if length != 3 * steps {
             return Err(format!(
-                "it returned {length} numbers of `{name}` for {steps} steps; there must be 3 per step"
+                "it returned {length} of `{name}` for {steps}; there must be 3 per step",
+                steps = counted(steps, "step"),
+                length = counted(length, "number")
             ));
         }
     }
     if !(4..=max_steps).contains(&steps) {
-        return Err(format!("it returned {steps} steps; there must be 4 to {max_steps}"));
+        return Err(format!("it returned {steps}; there must be 4 to {max_steps}", steps = counted(steps, "step")));
     }
     for (name, numbers, width) in [("watched", &plan.watched, 3), ("places", &plan.places, 3), ("pull", &plan.pull, 1)]
     {

@@ -5,6 +5,7 @@ use crate::interface_0_1::{Column, Declaration, Effect, Refusal, ValueKind};
 use crate::plugin::Plugin;
 use crate::session::Session;
 use crate::town::TownView;
+use cosfly_diagnose::counted;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use wasmtime::component::TypedFunc;
@@ -116,7 +117,7 @@ fn check(declared: &Declaration) -> Result<(), String> {
 
 fn check_columns(what: &str, columns: &[Column], most: usize) -> Result<(), String> {
     if columns.len() > most {
-        return Err(format!("it {what} {} columns; at most {most} are possible", columns.len()));
+        return Err(format!("it {what} {}; at most {most} are possible", counted(columns.len(), "column")));
     }
     let mut seen = BTreeSet::new();
     for Column { name, doc, .. } in columns {

@@ -3,7 +3,7 @@
 use crate::errors::{raised, refused};
 use crate::images::{Image, channel, checked};
 use crate::table::Table;
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, counted};
 use cosfly_domain::Channel;
 use cosfly_domain::channels::rgb;
 use cosfly_load::{FlightSource, LoadedFlight};
@@ -89,7 +89,8 @@ impl Reader {
             let flight = self.flight(py, *trajectory)?;
             if *frame >= flight.frames {
                 let (id, frames) = (&flight.id, flight.frames);
-                let message = format!("frame {frame} is beyond `{id}`, which has {frames} frames");
+                let message =
+                    format!("frame {frame} is beyond `{id}`, which has {frames}", frames = counted(frames, "frame"));
                 return Err(refused(py, "OutOfRange", &message));
             }
         }

@@ -7,7 +7,7 @@ use crate::envelope::Envelope;
 use crate::gate::{Gate, pause};
 use crate::question::Question;
 use crate::record::{Answer, Record};
-use cosfly_diagnose::Result;
+use cosfly_diagnose::{Result, counted};
 use cosfly_fingerprint::{Digest, canonical_json};
 use cosfly_stage::Answers;
 use serde_json::json;
@@ -95,7 +95,7 @@ impl Teacher {
             }
             let pause_for = match sent? {
                 Sent::Later { why: reason, pause, is_refusal } => {
-                    why = format!("{reason} after {request} requests");
+                    why = format!("{reason} after {request}", request = counted(request, "request"));
                     failures += u32::from(is_refusal);
                     pause.unwrap_or(wait)
                 }

@@ -1,7 +1,7 @@
 //! The budget: every request is booked before it is sent, at the most that it can cost, and corrected by what it did cost.
 
 use crate::config::{BudgetConfig, TeacherConfig};
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, counted};
 use cosfly_fingerprint::Digest;
 use cosfly_stage::{Answers, Spent};
 
@@ -64,8 +64,10 @@ fn check(budget: &BudgetConfig, next: &Spent, spent: &Spent) -> Result<()> {
         return Ok(());
     };
     let (calls, tokens, money) = (spent.calls, tokens(spent), money(spent));
-    let message =
-        format!("{limit}, and one more request might exceed it: {calls} requests, {tokens} tokens, {money:.4} spent");
+    let message = format!(
+        "{limit}, and one more request might exceed it: {calls}, {tokens} tokens, {money:.4} spent",
+        calls = counted(calls, "request")
+    );
     Err(Diagnostic::new("teacher-budget", Fault::Recipe, message)
         .hint("raise the budget and run the same command again: kept answers are not asked for again; or set `budget.when_spent = \"template\"`"))
 }

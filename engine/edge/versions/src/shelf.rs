@@ -1,7 +1,7 @@
 //! Versions of a store: one manifest each, in the folder `versions`.
 
 use crate::version::{SCHEMA, Version};
-use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
+use cosfly_diagnose::{Diagnostic, Fault, Result, counted, nearest_name};
 use cosfly_fingerprint::Digest;
 use serde::Deserialize;
 use serde_json::Value;
@@ -124,7 +124,7 @@ fn read(path: &Path) -> Result<Version> {
     };
     let size = std::fs::metadata(path).map_err(failed)?.len();
     if size > LIMIT {
-        return Err(damaged(format!("it has {size} bytes")));
+        return Err(damaged(format!("it has {size}", size = counted(size, "byte"))));
     }
     let open = || std::fs::File::open(path).map(BufReader::new).map_err(failed);
     let head: Head = serde_json::from_reader(open()?).map_err(|error| damaged(error.to_string()))?;

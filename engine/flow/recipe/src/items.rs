@@ -3,7 +3,7 @@
 use crate::document::{Place, Texts, list};
 use crate::groups::Groups;
 use crate::model::{Arrival, Connection, ItemNames, RecipeStage};
-use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_diagnose::{Diagnostic, Fault, counted};
 use cosfly_stage::{Fan, InputPort, ItemName, ItemRule, StageProperties, Takes};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -232,7 +232,11 @@ impl ItemReader<'_> {
     }
 
     fn too_many(&self, count: u64) -> Box<Diagnostic> {
-        let message = format!("`{}` would have {count} items; a stage may have at most {MOST_ITEMS}", self.stage);
+        let message = format!(
+            "`{}` would have {count}; a stage may have at most {MOST_ITEMS}",
+            self.stage,
+            count = counted(count, "item")
+        );
         self.texts
             .problem("recipe-too-many-items", self.place, message)
             .hint("split the work into several recipes with other seeds")

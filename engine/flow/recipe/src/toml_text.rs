@@ -1,7 +1,7 @@
 //! Parses TOML text into the tree with places; the only file that uses the `toml` crate.
 
 use crate::document::{Entry, Node, Place, Problems, Table, Texts, Value};
-use cosfly_diagnose::Diagnostic;
+use cosfly_diagnose::{Diagnostic, counted};
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Error};
@@ -67,7 +67,8 @@ pub(crate) fn parse_value(
 
 /// Message for a text that is too long. (The parser limits the depth itself.)
 fn too_long(text: &str) -> Option<String> {
-    (text.len() > MOST_BYTES).then(|| format!("the text has {} bytes; a recipe may have {MOST_BYTES}", text.len()))
+    (text.len() > MOST_BYTES)
+        .then(|| format!("the text has {}; a recipe may have {MOST_BYTES}", counted(text.len(), "byte")))
 }
 
 /// First error of every line, without those that follow from a broken table header above them.

@@ -1,5 +1,6 @@
 //! Changes of the ingredients of a key.
 
+use cosfly_diagnose::counted;
 use cosfly_fingerprint::Digest;
 use cosfly_stage::ItemId;
 use serde_json::Value;
@@ -117,7 +118,7 @@ impl fmt::Display for Change {
                 write!(f, "`inputs.{port}` changed from `[{}]` to `[{}]`", old.join(", "), new.join(", "))
             }
             Self::Items { port, added, removed } => {
-                write!(f, "at `inputs.{port}`, {} items were added and {} removed", added.len(), removed.len())
+                write!(f, "at `inputs.{port}`, added: {}, removed: {}", counted(added.len(), "item"), removed.len())
             }
             Self::Upstream { first, inputs: 1 } => write!(f, "its input `{first}` changed"),
             Self::Upstream { first, inputs } => write!(f, "{inputs} of its inputs changed, first `{first}`"),

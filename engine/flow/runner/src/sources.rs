@@ -32,7 +32,8 @@ impl SourceReader {
         let (digest, stamp) = match self.known.get(path) {
             Some(known) => *known,
             None => {
-                let read = digest_of(path).map_err(|error| Diagnostic::unread(format!("`{}`", path.display()), &error))?;
+                let read =
+                    digest_of(path).map_err(|error| Diagnostic::unread(format!("`{}`", path.display()), &error))?;
                 self.known.insert(path.to_owned(), read);
                 read
             }

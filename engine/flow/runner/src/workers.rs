@@ -9,7 +9,7 @@ use crate::processor_time::processor_s;
 use crate::publisher::{Publication, Publisher};
 use crate::schedule::{Schedule, State, TaskIndex};
 use crate::summary::{Ending, Failure, RunSummary};
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, counted};
 use cosfly_recipe::{Arrival, Recipe};
 use cosfly_stage::{ItemId, Produced, RunEvent, Work};
 use cosfly_store::{ActionRecord, Costs, Finished, Store};
@@ -126,7 +126,12 @@ pub(crate) fn do_the_rest(
 pub(crate) fn thread_pool(jobs: usize) -> Result<rayon::ThreadPool> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).stack_size(STACK_BYTES).build();
     pool.map_err(|error| {
-        Diagnostic::new("machine-threads", Fault::Machine, format!("could not start {jobs} threads")).because(error)
+        Diagnostic::new(
+            "machine-threads",
+            Fault::Machine,
+            format!("could not start {jobs}", jobs = counted(jobs, "thread")),
+        )
+        .because(error)
     })
 }
 

@@ -1,5 +1,6 @@
 //! [`Bytes`]: numbers at places of a byte slice; a place beyond its end is an error, never a panic.
 
+use cosfly_diagnose::counted;
 use cosfly_town::MapError;
 
 /// Bytes of a file.
@@ -14,8 +15,11 @@ impl<'a> Bytes<'a> {
     pub fn slice(self, start: u64, length: u64, what: &str) -> Result<&'a [u8], MapError> {
         let range = || Some(usize::try_from(start).ok()?..usize::try_from(start.checked_add(length)?).ok()?);
         range().and_then(|range| self.0.get(range)).ok_or_else(|| {
-            let message =
-                format!("the file ends before {what}: {length} bytes from byte {start} on, of {}", self.0.len());
+            let message = format!(
+                "the file ends before {what}: {length} from byte {start} on, of {}",
+                self.0.len(),
+                length = counted(length, "byte")
+            );
             MapError::new(message).hint("the file seems to be cut off: fetch or export it again")
         })
     }

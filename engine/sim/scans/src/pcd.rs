@@ -5,6 +5,7 @@ use crate::cloud::table::{Columns, not_applied};
 use crate::cloud::{CloudBuilder, CloudOptions, town_of};
 use crate::scalar::Scalar;
 use crate::way_out::or_advice;
+use cosfly_diagnose::counted;
 use cosfly_domain::Town;
 use cosfly_town::remarks::speaks_of_a_place;
 use cosfly_town::{MapError, MapFormat};
@@ -255,7 +256,7 @@ impl Head {
 fn fields(names: &[String], sizes: &[String], kinds: &[String], counts: &[String]) -> Result<Vec<Field>, MapError> {
     for (keyword, words) in [("SIZE", sizes), ("TYPE", kinds), ("COUNT", counts)] {
         if words.len() != names.len() && !(keyword == "COUNT" && words.is_empty()) {
-            let message = format!("`{keyword}` has {} values for {} `FIELDS`", words.len(), names.len());
+            let message = format!("`{keyword}` has {} for {} `FIELDS`", counted(words.len(), "value"), names.len());
             return Err(MapError::new(message).hint("write the file again with PCL, Open3D or CloudCompare"));
         }
     }

@@ -6,6 +6,7 @@ use crate::cloud::{CloudBuilder, CloudOptions, town_of};
 use crate::coloured_point::ColouredPoint;
 use crate::scalar::Scalar;
 use crate::way_out::or_advice;
+use cosfly_diagnose::counted;
 use cosfly_domain::Town;
 use cosfly_frames::DVec3;
 use cosfly_town::remarks::speaks_of_a_place;
@@ -288,7 +289,7 @@ impl Head {
             numbers.extend(line.split_whitespace().take(last + 1).map_while(|word| word.parse::<f64>().ok()));
             if numbers.len() <= last {
                 let shown: String = line.chars().take(60).collect();
-                let rule = format!("it must have {} numbers", self.properties.len());
+                let rule = format!("it must have {}", counted(self.properties.len(), "number"));
                 return Err(MapError::new(format!("vertex {vertex} is `{shown}`; {rule}")));
             }
             visit(&|column| numbers[column]);

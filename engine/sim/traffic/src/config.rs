@@ -1,6 +1,7 @@
 //! [`TrafficConfig`]: the parameters of traffic in a recipe.
 
 use crate::follow::Follow;
+use cosfly_diagnose::counted;
 use cosfly_domain::BodyKind;
 use cosfly_pedestrians::{CrowdConfig, PedestrianConfigRule, RecordedConfig, ScriptedPerson};
 use cosfly_vehicles::VehicleConfig;
@@ -110,8 +111,8 @@ impl TrafficConfig {
         }
         if named.len() as u64 > self.follow.count {
             let message = format!(
-                "`follow.named` has {} names, but `follow.count` is `{}`; it must be at least as many",
-                named.len(),
+                "`follow.named` has {}, but `follow.count` is `{}`; it must be at least as many",
+                counted(named.len(), "name"),
                 self.follow.count
             );
             return Err(PedestrianConfigRule { path: vec!["follow", "named"], message });

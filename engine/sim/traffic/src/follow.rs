@@ -76,7 +76,11 @@ impl Follow {
         let message = format!(
             "`follow.count` is {}, but {} of the kinds {} are there all the time and cover {} m",
             self.count,
-            if eligible == 0 { "no bodies".to_owned() } else { format!("only {eligible} bodies") },
+            match eligible {
+                0 => "no bodies".to_owned(),
+                1 => "only one body".to_owned(),
+                _ => format!("only {eligible} bodies"),
+            },
             kinds.join(", "),
             self.min_length_m
         );

@@ -1,6 +1,7 @@
 //! Frozen poses, actions that do not lead to the next pose, broken limits.
 
 use crate::{ExaminedEpisode, Flag};
+use cosfly_diagnose::counted;
 use cosfly_frames::{DVec3, Pose};
 
 /// Largest difference between actions and poses, metres and degrees.
@@ -96,7 +97,7 @@ fn led(episode: &ExaminedEpisode, frame: usize) -> Option<Pose> {
 /// `1` as "the frame after", and so on.
 pub fn frames(shift: i64) -> String {
     let side = if shift < 0 { "before" } else { "after" };
-    if shift.abs() == 1 { format!("the frame {side}") } else { format!("{} frames {side}", shift.abs()) }
+    if shift.abs() == 1 { format!("the frame {side}") } else { format!("{} {side}", counted(shift.abs(), "frame")) }
 }
 
 fn turns(episode: &ExaminedEpisode) -> Option<Flag> {

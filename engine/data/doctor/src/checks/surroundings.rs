@@ -1,6 +1,7 @@
 //! Obstacles that are too near, targets inside of vehicles, targets that are seldom visible.
 
 use crate::{ExaminedEpisode, Flag};
+use cosfly_diagnose::counted;
 use cosfly_frames::real;
 
 /// Share of frames with less than half of the target visible from which a flight is imperfect.
@@ -35,7 +36,8 @@ fn overlap(episode: &ExaminedEpisode) -> Option<Flag> {
     };
     let frames: Vec<usize> = (0..episode.moments.len()).filter(inside).collect();
     let first = frames.first()?;
-    let message = format!("the target is inside of a vehicle in {} frames; the first is {first}", frames.len());
+    let message =
+        format!("the target is inside of a vehicle in {}; the first is {first}", counted(frames.len(), "frame"));
     Some(Flag::imperfect("target-overlap", &episode.id, message))
 }
 

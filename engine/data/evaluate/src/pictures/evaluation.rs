@@ -15,7 +15,7 @@ use super::trackers;
 use crate::report::result::DatasetFacts;
 use crate::scoring::groups_of_flights;
 use crate::windows::Flights;
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, counted};
 use cosfly_domain::SemanticLabel;
 use cosfly_metrics::depth::{DepthScores, depth_scores};
 use cosfly_metrics::segmentation::Confusion;
@@ -91,7 +91,7 @@ fn nothing_scored(count: &Count, path: &Path, settings: &PictureSettings) -> Box
         frames => {
             let most_m = settings.max_depth_m;
             refusal
-                .because(format!("{frames} frames show nothing nearer than {most_m} m"))
+                .because(format!("there is nothing nearer than {most_m} m in {}", counted(frames, "frame")))
                 .hint("raise `--max-depth-m`")
         }
     }
@@ -359,8 +359,9 @@ fn notes(
     }
     if without_truth > 0 {
         notes.push(format!(
-            "{without_truth} frames show nothing nearer than {} m and are left out",
-            settings.max_depth_m
+            "left out, with nothing nearer than {} m: {}",
+            settings.max_depth_m,
+            counted(without_truth, "frame")
         ));
     }
     if let Given::Rows { listed, facts, .. } = given {
@@ -389,7 +390,7 @@ fn nonsense_note(nonsense: &Nonsense, is_depth: bool, settings: &PictureSettings
         ),
         false => "a label that CARLA does not have (0 to 28): each is a miss".to_owned(),
     };
-    (*pixels > 0).then(|| format!("{pixels} scored pixels of {frames} frames have {what}{first}"))
+    (*pixels > 0).then(|| format!("{} in {}: {what}{first}", counted(pixels, "scored pixel"), counted(frames, "frame")))
 }
 
 /// Expected frames that have no prediction, by trajectory; for detections no frame is missing.

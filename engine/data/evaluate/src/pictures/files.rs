@@ -2,7 +2,7 @@
 
 use super::report::FileProblem;
 use crate::windows::Flights;
-use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_diagnose::{Diagnostic, Result, counted};
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -115,7 +115,10 @@ fn frame_of(path: &Path, flights: &Flights) -> std::result::Result<(usize, usize
     let row = &flights.rows[flight];
     if frame >= row.frames {
         let (id, frames) = (&row.trajectory_id, row.frames);
-        return Err(("no-frame", format!("`{id}` has {frames} frames: there is no frame {frame}")));
+        return Err((
+            "no-frame",
+            format!("`{id}` has {frames}: there is no frame {frame}", frames = counted(frames, "frame")),
+        ));
     }
     Ok((flight, frame))
 }

@@ -5,7 +5,7 @@ use super::raster::Refusal;
 use super::report::{FileFacts, FileProblem};
 use super::settings::{PictureKind, PictureSettings};
 use crate::windows::Flights;
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, counted};
 use cosfly_domain::SemanticLabel;
 use cosfly_read::predictions::detections as rows;
 use cosfly_read::predictions::detections::{Detection, ImageKey};
@@ -134,7 +134,10 @@ fn frame_of(
             let flight = flights.place(id).ok_or_else(unknown)?;
             let (frame, frames) = (usize::try_from(*frame).unwrap_or(usize::MAX), flights.rows[flight].frames);
             if frame >= frames {
-                return Err(("no-frame", format!("`{id}` has {frames} frames: there is no frame {frame}")));
+                return Err((
+                    "no-frame",
+                    format!("`{id}` has {frames}: there is no frame {frame}", frames = counted(frames, "frame")),
+                ));
             }
             (flight, frame)
         }

@@ -3,6 +3,7 @@
 use super::report::{PictureEvaluation, SequenceReport};
 use super::settings::PictureKind;
 use crate::report::table::{number, score, table, title};
+use cosfly_diagnose::counted;
 use cosfly_plot::text::{markdown, markdown_code, markdown_words};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -67,7 +68,7 @@ fn facts(evaluation: &PictureEvaluation) -> String {
         dataset.flights,
         markdown(&dataset.splits.join(" and ")),
         if frames.without_prediction > 0 {
-            format!(", {} frames have no prediction and are left out", frames.without_prediction)
+            format!(", {} without a prediction left out", counted(frames.without_prediction, "frame"))
         } else {
             String::new()
         }

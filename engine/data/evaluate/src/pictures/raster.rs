@@ -1,6 +1,6 @@
 //! Predicted pictures: depth as 16-bit PNG or NumPy array, labels as 8-bit PNG or NumPy array.
 
-use cosfly_diagnose::contained;
+use cosfly_diagnose::{contained, counted};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Seek};
 use std::path::Path;
@@ -186,7 +186,7 @@ fn numbers(file: impl Read, kind: &str, count: usize) -> Result<Raster, String> 
     let mut bytes = vec![];
     file.take((width * count) as u64 + 1).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
     if bytes.len() != width * count {
-        return Err(format!("it has {} bytes of numbers; {} were expected", bytes.len(), width * count));
+        return Err(format!("it has {} of numbers; {} were expected", counted(bytes.len(), "byte"), width * count));
     }
     Ok(match kind {
         "|u1" => Raster::Bytes(bytes),

@@ -19,7 +19,7 @@ use crate::card::ExportCard;
 use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::source::{ExportedFlight, Source};
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, counted};
 use cosfly_plot::text::markdown_code;
 use names::{Names, Place, TownName};
 use schemars::JsonSchema;
@@ -78,8 +78,9 @@ impl Format for V7 {
 
 fn remarks(changed: usize) -> Vec<String> {
     let remark = format!(
-        "{changed} flights show things with ids beyond 65,535: `instance.png` has other numbers for these, listed in \
-         `trajectory.json` under `cosfly.instances`"
+        "{} with things whose ids are beyond 65,535: `instance.png` has other numbers for these, listed in \
+         `trajectory.json` under `cosfly.instances`",
+        counted(changed, "flight")
     );
     if changed > 0 { vec![remark] } else { Vec::new() }
 }

@@ -76,8 +76,7 @@ pub fn recognise(start: &[u8]) -> Option<bool> {
 /// # Errors
 /// The file cannot be read, is empty, or is an array that is cut off. Invalid rows are no error, see [`Detections::problems`].
 pub fn read(path: &Path) -> Result<Detections> {
-    let refused = |error: std::io::Error| Diagnostic::unread(format!("`{}`", path.display()), &error);
-    let bytes = std::fs::read(path).map_err(refused)?;
+    let bytes = std::fs::read(path).map_err(|error| Diagnostic::unread(format!("`{}`", path.display()), &error))?;
     let mut found = Detections::default();
     if bytes.trim_ascii().is_empty() {
         let message = format!("`{}` is empty", path.display());
@@ -224,8 +223,7 @@ pub fn read_images(path: &Path) -> Result<Vec<ListedImage>> {
     struct Annotations {
         images: Vec<ListedImage>,
     }
-    let refused = |error: std::io::Error| Diagnostic::unread(format!("`{}`", path.display()), &error);
-    let file = std::fs::read(path).map_err(refused)?;
+    let file = std::fs::read(path).map_err(|error| Diagnostic::unread(format!("`{}`", path.display()), &error))?;
     let annotations: Annotations = serde_json::from_slice(&file).map_err(|error| {
         let message = format!("`{}` does not say which frames its images are", path.display());
         Diagnostic::new("predictions-images", Fault::Input, message)

@@ -4,6 +4,7 @@ use crate::flight_rows::FlightRows;
 use crate::report::VerifyReport;
 use crate::rows::PlacedFrame;
 use crate::tables::LossRow;
+use cosfly_diagnose::counted;
 
 /// Seconds that pass through a product.
 const TOLERANCE: f64 = 1e-9;
@@ -15,7 +16,11 @@ pub fn check(it: &FlightRows<'_>, report: &mut VerifyReport) {
     let stretches = it.frames.chunk_by(|a, b| is_lost(a) == is_lost(b)).filter(|frames| is_lost(&frames[0]));
     let stretches: Vec<&[PlacedFrame]> = stretches.collect();
     if stretches.len() != it.losses.len() {
-        let message = format!("{} rows; in {} stretches of frames no pixel shows it", it.losses.len(), stretches.len());
+        let message = format!(
+            "{}; in {} stretches of frames no pixel shows it",
+            counted(it.losses.len(), "row"),
+            stretches.len()
+        );
         report.find("data/target_losses", format!("`{id}`"), "verify-loss", message);
         return;
     }
@@ -38,7 +43,12 @@ fn problem(it: &FlightRows<'_>, lost: &[PlacedFrame], row: &LossRow) -> Option<S
         return Some(format!("frames {:?}; no pixel shows it in frames {:?}", row.frames, (start, end)));
     }
     if (row.duration_s - f64::from(count) * it.flight.dt_s).abs() > TOLERANCE {
-        return Some(format!("`duration_s` is {}; {count} frames take {} s each", row.duration_s, it.flight.dt_s));
+        return Some(format!(
+            "`duration_s` is {}; it is of {}, {} s each",
+            row.duration_s,
+            counted(count, "frame"),
+            it.flight.dt_s
+        ));
     }
     if row.frames_out_of_view != out_of_view {
         return Some(format!("`frames_out_of_view` is {}; the frames give {out_of_view}", row.frames_out_of_view));

@@ -3,7 +3,7 @@
 use super::header::{PackHeader, damaged};
 use super::image_record::{ImageRecord, length_of, messages_of, records_of};
 use super::layout::{END_MAGIC, ENTRY_BYTES, FOOTER_BYTES, MAGIC, MAX_FRAMES, Part, Section, VERSION, check_of, parts};
-use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_diagnose::{Diagnostic, Result, counted};
 use cosfly_domain::Channel;
 use cosfly_domain::channels::rgb;
 use cosfly_schema::record::PreviewStrip;
@@ -54,7 +54,10 @@ impl<R: Read + Seek> FramePackReader<R> {
         let length = input.seek(SeekFrom::End(0)).map_err(read_error)?;
         let (header_bytes, data_start) = read_header(&mut input, length)?;
         if length < data_start + FOOTER_BYTES as u64 {
-            return Err(damaged(format!("it ends after {length} bytes, within its first frame")));
+            return Err(damaged(format!(
+                "it ends after {length}, within its first frame",
+                length = counted(length, "byte")
+            )));
         }
         let footer_at = length - FOOTER_BYTES as u64;
         let footer: [u8; FOOTER_BYTES] =
@@ -70,7 +73,10 @@ impl<R: Read + Seek> FramePackReader<R> {
         let index_bytes = frames.min(MAX_FRAMES + 1) * (parts.len() * ENTRY_BYTES) as u64;
         if frames > MAX_FRAMES || index_offset < data_start || index_offset.checked_add(index_bytes) != Some(footer_at)
         {
-            return Err(damaged(format!("its index of {frames} frames does not fit its {length} bytes")));
+            return Err(damaged(format!(
+                "its index of {frames} frames does not fit its {length}",
+                length = counted(length, "byte")
+            )));
         }
         let index = read_at(&mut input, index_offset, index_bytes as usize)?;
         if check_of(&[&header_bytes[..], &index].concat()) != footer[16..24] {
@@ -160,7 +166,7 @@ impl<R: Read + Seek> FramePackReader<R> {
     /// The sections of a frame.
     fn row(&self, frame: usize) -> Result<&[Section]> {
         let parts = self.parts.len();
-        let missing = || damaged(format!("it has {} frames, no frame {frame}", self.len()));
+        let missing = || damaged(format!("it has {}, no frame {frame}", counted(self.len(), "frame")));
         self.sections.chunks_exact(parts).nth(frame).ok_or_else(missing)
     }
 
@@ -204,7 +210,7 @@ fn unpacked(chunk: &PackedChunk, frame: usize) -> Result<Vec<u8>> {
 /// The header's bytes and where the first frame begins.
 fn read_header(input: &mut (impl Read + Seek), length: u64) -> Result<(Vec<u8>, u64)> {
     if length < 16 {
-        return Err(damaged(format!("it ends after {length} bytes")));
+        return Err(damaged(format!("it ends after {length}", length = counted(length, "byte"))));
     }
     let start = read_at(input, 0, 16)?;
     if start[..8] != MAGIC[..] {
@@ -216,7 +222,7 @@ fn read_header(input: &mut (impl Read + Seek), length: u64) -> Result<(Vec<u8>, 
     }
     let data_start = 16 + u64::from(header_bytes);
     if data_start > length {
-        return Err(damaged(format!("it ends after {length} bytes, within its header")));
+        return Err(damaged(format!("it ends after {length}, within its header", length = counted(length, "byte"))));
     }
     Ok((read_at(input, 16, header_bytes as usize)?, data_start))
 }

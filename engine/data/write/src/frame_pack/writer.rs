@@ -5,7 +5,7 @@ use super::image_record::{length_of, records_of};
 use super::layout::{END_MAGIC, ENTRY_BYTES, MAGIC, Part, Section, VERSION, check_of, parts};
 use super::pixels;
 use cosfly_channel_pictures::previews::SmallImages;
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, counted};
 use cosfly_domain::{Channel, FrameImages};
 use cosfly_images::jpeg::Chroma;
 use cosfly_images::rgb;
@@ -116,7 +116,11 @@ impl<W: Write> FramePackWriter<W> {
             images.on_request.iter().any(|image| image.channel == channel && image.bytes.len() == bytes)
         };
         if let Some(missing) = asked_for.find(|channel| !has(channel)) {
-            return self.refuse(format!("channel `{}` does not hold {pixels} pixels", missing.name));
+            return self.refuse(format!(
+                "channel `{}` does not hold {pixels}",
+                missing.name,
+                pixels = counted(pixels, "pixel")
+            ));
         }
         let lengths = [images.rgb.len() / 3, images.depth_m.len(), images.semantic.len(), images.instance.len()];
         if lengths != [pixels; 4] || images.rgb.len() != 3 * pixels {

@@ -6,7 +6,7 @@ use super::{metadata, scene};
 use crate::frame_pack::{FramePackReader, PackHeader, PackedFrame};
 use cosfly_blobs::BlobPart;
 use cosfly_channel_pictures::previews;
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, counted};
 use cosfly_domain::Town;
 use cosfly_domain::channels::rgb;
 use cosfly_fingerprint::Digest;
@@ -81,9 +81,9 @@ fn check_pack<R: Read + Seek>(record: &RenderedTrajectory, pack: &FramePackReade
             "mcap-pack",
             Fault::Bug,
             format!(
-                "trajectory `{}` has {} frames of {} x {}, {} s apart; its frame pack has {} of {} x {}, {} s apart",
+                "trajectory `{}` has {} of {} x {}, {} s apart; its frame pack has {} of {} x {}, {} s apart",
                 record.trajectory_id,
-                record.len(),
+                counted(record.len(), "frame"),
                 camera.width,
                 camera.height,
                 record.dt_s(),

@@ -3,9 +3,9 @@
 use super::shortcuts;
 use crate::gathered_extras::merged;
 use cosfly_diagnose::Result;
+use cosfly_diagnose::counted;
 use cosfly_domain::ChannelSet;
 use cosfly_metrics::shortcuts::Shortcuts;
-use cosfly_schema::card_text::counted;
 use cosfly_schema::extras::ExtraSummary;
 use cosfly_schema::tables::DatasetItem;
 use cosfly_schema::{LogRecord, Rejection, Role};

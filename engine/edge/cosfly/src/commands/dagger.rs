@@ -8,7 +8,7 @@ use crate::command::{Command, Outcome};
 use crate::console::Console;
 use crate::exit;
 use clap::{Parser, Subcommand};
-use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_diagnose::{Diagnostic, Fault, counted};
 use cosfly_env::EnvironmentSettings;
 use cosfly_fly::dagger::difference::told;
 use cosfly_fly::dagger::folder::{LabelCard, LabelFolder, RoundCard};
@@ -170,8 +170,8 @@ impl Command for Arguments {
         } else {
             let path = out.display();
             console.print(&format!(
-                "{path}: {} episodes flown, the expert asked {} times\n{}",
-                flown.episodes,
+                "{path}: {} flown, the expert asked {} times\n{}",
+                counted(flown.episodes, "episode"),
                 flown.asked,
                 told(onto.as_ref(), &card)
             ))?;

@@ -6,7 +6,7 @@ use crate::command::{Command, Outcome, Refusals};
 use crate::console::Console;
 use crate::exit;
 use clap::{Parser, ValueEnum};
-use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_diagnose::{Diagnostic, Fault, counted};
 use cosfly_env::EnvironmentSettings;
 use cosfly_fly::flight::Latency;
 use cosfly_fly::hunt::found;
@@ -246,8 +246,9 @@ impl Arguments {
         }
         let place = out.display();
         console.print(&format!(
-            "{place}: {} failures in {flown} episodes, of {candidates} candidates; the expert fails in {left_out}\n",
-            failures.len()
+            "{place}: {} in {flown}, of {candidates} candidates; the expert fails in {left_out}\n",
+            counted(failures.len(), "failure"),
+            flown = counted(flown, "episode")
         ))?;
         let next = match failures.is_empty() {
             true => "no failure was found: a larger --budget and --pool, or wider ranges with --vary, may have some\n"

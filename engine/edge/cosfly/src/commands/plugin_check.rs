@@ -4,7 +4,7 @@ use crate::command::{Command, Outcome, Refusals};
 use crate::console::Console;
 use crate::exit;
 use clap::Parser;
-use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_diagnose::{Diagnostic, Fault, counted};
 use cosfly_experts::plugins::config::Makes;
 use cosfly_experts::plugins::{host, tables};
 use cosfly_plugin_host::laws::{self, LawFinding};
@@ -159,10 +159,17 @@ fn read_answer(declared: &Declaration, answer: &[u8]) -> Result<String, String> 
         }),
         Effect::Annotate => flight_table::read_answer(answer, &gives, 1..=1)
             .map(|_| format!("annotates flights in the table `{name}`, `makes = \"extras\"`")),
-        Effect::Rows => count(flight_table::MOST_ROWS)
-            .map(|rows| format!("{rows} rows of the sample flight for the table `{name}`, `makes = \"extras\"`")),
+        Effect::Rows => count(flight_table::MOST_ROWS).map(|rows| {
+            format!(
+                "{rows} of the sample flight for the table `{name}`, `makes = \"extras\"`",
+                rows = counted(rows, "row")
+            )
+        }),
         Effect::Files => count(flight_table::MOST_FILES).map(|files| {
-            format!("{files} files of the sample flight for the folder `extras/{name}`, `makes = \"extras\"`")
+            format!(
+                "{files} of the sample flight for the folder `extras/{name}`, `makes = \"extras\"`",
+                files = counted(files, "file")
+            )
         }),
     }
 }

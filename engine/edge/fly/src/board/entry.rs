@@ -5,7 +5,7 @@ use super::sees::PolicySees;
 use crate::bundle::MOST_BYTES;
 use crate::flight::Row;
 use crate::results::{Card, SuiteCard};
-use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_diagnose::{Diagnostic, Result, counted};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -123,7 +123,9 @@ fn bytes_of(path: &Path, most: u64) -> std::result::Result<Option<Vec<u8>>, Stri
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(format!("`{name}` cannot be read: {error}")),
         Ok(about) if !about.is_file() => Err(format!("`{name}` is a link or a folder, no file")),
-        Ok(about) if about.len() > most => Err(format!("`{name}` has {} bytes; it may have {most}", about.len())),
+        Ok(about) if about.len() > most => {
+            Err(format!("`{name}` has {}; it may have {most}", counted(about.len(), "byte")))
+        }
         Ok(_) => std::fs::read(path).map(Some).map_err(|error| format!("`{name}` cannot be read: {error}")),
     }
 }

@@ -3,6 +3,7 @@
 use super::entry::Proof;
 use super::standing::{Board, Class, Contest, Standing};
 use crate::results::{METRICS, of_summaries};
+use cosfly_diagnose::counted;
 use cosfly_plot::text::one_line;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
@@ -59,7 +60,7 @@ pub fn alike(it: &Standing) -> Option<String> {
 pub fn told(board: &Board) -> String {
     let mut text = String::new();
     for contest in &board.contests {
-        let _ = writeln!(text, "{}, {} episodes", one_line(&contest.suite.name), contest.suite.episodes);
+        let _ = writeln!(text, "{}, {}", one_line(&contest.suite.name), counted(contest.suite.episodes, "episode"));
         for it in contest.all() {
             let rank = it.rank.map_or_else(|| "-".to_owned(), |rank| rank.to_string());
             let name = one_line(&it.entry.card.policy.name);

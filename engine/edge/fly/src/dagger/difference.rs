@@ -1,6 +1,7 @@
 //! Two versions of labels side by side.
 
 use super::folder::{LabelCard, RoundCard};
+use cosfly_diagnose::counted;
 use std::fmt::Write as _;
 
 /// Rounds and labels that a version has and another has not, in words.
@@ -29,7 +30,7 @@ fn of_round(round: &RoundCard) -> String {
     let policy = &round.policy;
     let version = policy.version.as_ref().map_or(String::new(), |version| format!(" {version}"));
     let made = round.made.as_ref().map_or("not yet whole".to_owned(), |made| {
-        format!("{} labels in {} states of {} episodes", made.labels, made.states, made.episodes)
+        format!("{} in {} of {} episodes", counted(made.labels, "label"), counted(made.states, "state"), made.episodes)
     });
     let share = 100.0 * round.by_expert;
     format!("round `{}`: {made}; policy {}{version}, the expert flew {share:.0} %", round.name, policy.name)

@@ -95,7 +95,7 @@ pub(super) fn check_list_length(
             (Some(least), None) => format!("at least {least}"),
             (_, most) => format!("at most {}", most.unwrap_or_default()),
         };
-        format!("has {count} entries; it must have {wanted}")
+        format!("has {count} {}; it must have {wanted}", if count == 1 { "entry" } else { "entries" })
     } else if schema.get("uniqueItems") == Some(&Json::Bool(true)) {
         let mut seen: Vec<Json> = vec![];
         let twice = items.iter().find(|item| {

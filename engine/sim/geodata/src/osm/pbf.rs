@@ -6,6 +6,7 @@
 use super::elements::{Bounds, Elements, Kind, Member, Rank, Relation, Role, Way};
 use super::tags::Tags;
 use super::unpacked::most_unpacked;
+use cosfly_diagnose::counted;
 use cosfly_town::MapError;
 use flate2::read::ZlibDecoder;
 use prost::Message;
@@ -201,7 +202,8 @@ pub fn read(bytes: &[u8]) -> Result<Elements, MapError> {
         let header = take(&mut rest, size).ok_or_else(|| broken("is cut off".to_owned()))?;
         let header = BlobHeader::decode(header).map_err(|error| broken(format!("has no readable header: {error}")))?;
         let size = usize::try_from(header.size).unwrap_or(usize::MAX);
-        let blob = take(&mut rest, size).ok_or_else(|| broken(format!("has {size} bytes, but the file ends")))?;
+        let blob = take(&mut rest, size)
+            .ok_or_else(|| broken(format!("has {size}, but the file ends", size = counted(size, "byte"))))?;
         // The format asks to skip what is unknown.
         if !["OSMHeader", "OSMData"].contains(&header.kind.as_str()) {
             continue;

@@ -2,6 +2,7 @@
 
 use crate::kinds::is_zero;
 use crate::{AreaConfig, HeightRange, KindShares, PedestrianConfig, PedestrianConfigRule, RadiusRange, SpeedConfig};
+use cosfly_diagnose::counted;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -238,7 +239,10 @@ impl GroupConfig {
     fn check(&self) -> Result<(), PedestrianConfigRule> {
         let refused = |message: String| Err(PedestrianConfigRule { path: vec!["groups", "sizes"], message });
         if self.sizes.is_empty() || self.sizes.len() > 5 {
-            return refused(format!("`sizes` has {} numbers; it must have between 1 and 5", self.sizes.len()));
+            return refused(format!(
+                "`sizes` has {}; it must have between 1 and 5",
+                counted(self.sizes.len(), "number")
+            ));
         }
         if let Some(size) = self.sizes.iter().find(|size| !(0.0..=1e6).contains(*size)) {
             return refused(format!("`sizes` contains `{size}`; its numbers must be within `0` and `1000000`"));

@@ -1,7 +1,7 @@
 //! Tracks in columns: ETH/UCY `obsmat` and CSV.
 
 use super::{RecordedConfig, RecordedError, RecordedPoint, RecordedTrack, Recording};
-use cosfly_diagnose::plausible;
+use cosfly_diagnose::{counted, plausible};
 use cosfly_frames::DVec2;
 use std::collections::BTreeMap;
 
@@ -110,7 +110,7 @@ pub(super) fn read_csv(text: &str, config: &RecordedConfig) -> Result<Recording,
     for (line, row) in rows {
         let cells: Vec<&str> = cells(row, separator).take(count).collect();
         if cells.len() < count {
-            let message = format!("the row has {} columns; {count} are needed", cells.len());
+            let message = format!("the row has {}; {count} are needed", counted(cells.len(), "column"));
             return Err(RecordedError::new(message).at(line).hint("a row is time, id, x, y with commas between"));
         }
         // Decimals with a comma would move all columns behind them.

@@ -4,6 +4,7 @@
 use super::columns::shortened;
 use super::unique::Unique;
 use super::{RecordedError, RecordedPoint, RecordedTrack, Recording, instant};
+use cosfly_diagnose::counted;
 use cosfly_frames::DVec2;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -110,7 +111,7 @@ fn line_points(line: &Value, times: &Value) -> Result<Vec<RecordedPoint>, String
         return Err("its coordinates or its times are no list".into());
     };
     if line.len() != times.len() {
-        return Err(format!("it has {} points and {} times", line.len(), times.len()));
+        return Err(format!("it has {} and {} times", counted(line.len(), "point"), times.len()));
     }
     line.iter().zip(times).map(|(place, time)| point(place, time)).collect()
 }

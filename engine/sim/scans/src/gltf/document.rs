@@ -6,6 +6,7 @@ use crate::bytes::Bytes;
 use crate::mesh::options::IN_A_PLAN;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use cosfly_diagnose::counted;
 use cosfly_frames::DVec3;
 use cosfly_town::MapError;
 use glam::{DMat4, DQuat};
@@ -316,8 +317,8 @@ impl Buffer {
         };
         Some(data).filter(|data| data.len() >= self.byte_length).ok_or_else(|| {
             let error = MapError::new(format!(
-                "buffer {index} has less data than the {} bytes that it states",
-                self.byte_length
+                "buffer {index} has less data than the {} that it states",
+                counted(self.byte_length, "byte")
             ));
             error.hint("the file seems to be cut off: export it again")
         })

@@ -1,7 +1,7 @@
 //! LAZ: chunks of compressed points, unpacked side by side. Sizes and counts are checked before anything is allocated.
 
 use super::header::Header;
-use cosfly_diagnose::contained;
+use cosfly_diagnose::{contained, counted};
 use cosfly_town::MapError;
 use laz::laszip::ChunkTable;
 use laz::record::{LayeredPointRecordDecompressor, RecordDecompressor, SequentialPointRecordDecompressor};
@@ -57,8 +57,11 @@ pub(super) fn read<T: Send>(
     let data = header.bytes.0.len() as u64 - header.points_start.min(header.bytes.0.len() as u64);
     let most = MOST_POINTS_PER_BYTE_OF_FILE.saturating_mul(data).saturating_add(POINTS_OF_ANY_FILE);
     if header.points > most.min(MOST_POINTS_PER_BYTE.saturating_mul(data)) {
-        let message =
-            format!("the file says that it has {} points, but there are only {data} bytes of them", header.points);
+        let message = format!(
+            "the file says that it has {}, but there are only {data} of them",
+            counted(header.points, "point"),
+            data = counted(data, "byte")
+        );
         return Err(MapError::new(message).hint("the file seems to be cut off or damaged: fetch it again"));
     }
     let chunks = if record.starts_with(&WITHOUT_CHUNKS.to_le_bytes()) {
@@ -109,7 +112,11 @@ fn chunks<'a>(header: &Header<'a>, vlr: &LazVlr) -> Result<Vec<Chunk<'a>>, MapEr
     let count = u64::from(file.u32(table_start.saturating_add(4), "the table of chunks")?);
     // A chunk holds at least one whole point.
     if count > packed / header.record_bytes as u64 {
-        return Err(damaged(&format!("the table lists {count} chunks in {packed} bytes")));
+        return Err(damaged(&format!(
+            "the table lists {count} in {packed}",
+            packed = counted(packed, "byte"),
+            count = counted(count, "chunk")
+        )));
     }
     let mut source = Cursor::new(file.0);
     source.set_position(header.points_start);
@@ -148,7 +155,11 @@ fn unpacked<T>(
         check_layers(header, items, chunk.bytes)?;
     }
     if chunk.points as u64 > MOST_POINTS_PER_BYTE.saturating_mul(chunk.bytes.len() as u64) {
-        return Err(damaged(&format!("a chunk has {} points in {} bytes", chunk.points, chunk.bytes.len())));
+        return Err(damaged(&format!(
+            "a chunk has {} in {}",
+            counted(chunk.points, "point"),
+            counted(chunk.bytes.len(), "byte")
+        )));
     }
     let source = Cursor::new(chunk.bytes);
     let records = || {

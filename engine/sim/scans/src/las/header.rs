@@ -1,7 +1,7 @@
 //! [`Header`]: the head of a LAS file and its records of variable length.
 
 use crate::bytes::Bytes;
-use cosfly_diagnose::plausible;
+use cosfly_diagnose::{counted, plausible};
 use cosfly_frames::DVec3;
 use cosfly_town::MapError;
 
@@ -64,7 +64,10 @@ impl<'a> Header<'a> {
         let record_bytes = usize::from(bytes.u16(105, "the length of a point")?);
         if record_bytes < *least_bytes {
             let rule = format!("points of format {point_format} have at least {least_bytes}");
-            return Err(MapError::new(format!("a point has {record_bytes} bytes; {rule}")));
+            return Err(MapError::new(format!(
+                "a point has {record_bytes}; {rule}",
+                record_bytes = counted(record_bytes, "byte")
+            )));
         }
         let vector = |start: u64, what: &str| -> Result<DVec3, MapError> {
             Ok(DVec3::new(bytes.f64(start, what)?, bytes.f64(start + 8, what)?, bytes.f64(start + 16, what)?))

@@ -3,6 +3,7 @@
 use super::paths::folder_of;
 use super::volume::Volume;
 use crate::bytes::Bytes;
+use cosfly_diagnose::counted;
 use cosfly_frames::real;
 use cosfly_town::MapError;
 use serde::Deserialize;
@@ -112,9 +113,10 @@ impl Tree {
         let is_few = per_level.saturating_mul(rule.subtree_levels) <= MOST_BELOW.ilog2();
         if !(1..=MOST_LEVELS).contains(&levels) || rule.subtree_levels == 0 || !is_few {
             let message = format!(
-                "the tree has {levels} levels, its subtrees {}; at most {MOST_LEVELS} are read, {} in a subtree",
+                "the tree has {levels}, its subtrees {}; at most {MOST_LEVELS} are read, {} in a subtree",
                 rule.subtree_levels,
-                MOST_BELOW.ilog2() / per_level
+                MOST_BELOW.ilog2() / per_level,
+                levels = counted(levels, "level")
             );
             return Err(MapError::new(message).hint(HINT));
         }

@@ -2,6 +2,7 @@
 
 use super::implicit::{Cell, Rule, Tree};
 use super::volume::Volume;
+use cosfly_diagnose::counted;
 use cosfly_town::MapError;
 use serde::Deserialize;
 use serde_json::Value;
@@ -74,7 +75,8 @@ impl Tileset {
     /// Other versions, extensions that are not read, damaged files.
     pub fn read(bytes: &[u8]) -> Result<Self, MapError> {
         if bytes.len() > MOST_BYTES {
-            let error = MapError::new(format!("the file has {} bytes; at most {MOST_BYTES} are read", bytes.len()));
+            let error =
+                MapError::new(format!("the file has {}; at most {MOST_BYTES} are read", counted(bytes.len(), "byte")));
             return Err(error.hint("split the tileset into external ones"));
         }
         let text = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);

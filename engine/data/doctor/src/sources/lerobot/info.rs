@@ -1,5 +1,6 @@
 //! `meta/info.json`: features, counts, splits.
 
+use cosfly_diagnose::counted;
 use serde_json::Value;
 use std::path::Path;
 
@@ -14,7 +15,7 @@ pub fn info(folder: &Path) -> Result<Value, String> {
     let path = folder.join("meta/info.json");
     let size = std::fs::metadata(&path).map_err(|error| error.to_string())?.len();
     if size > INFO_LIMIT {
-        return Err(format!("it has {size} bytes"));
+        return Err(format!("it has {size}", size = counted(size, "byte")));
     }
     let bytes = std::fs::read(path).map_err(|error| format!("it cannot be read: {error}"))?;
     let info: Value = serde_json::from_slice(&bytes).map_err(|error| format!("not JSON: {error}"))?;

@@ -4,6 +4,7 @@ use super::actions::RecordedActions;
 use super::features::Features;
 use super::video;
 use crate::Flag;
+use cosfly_diagnose::counted;
 use cosfly_read::{ForeignRows, inner_path};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -54,7 +55,10 @@ impl Listed {
             let name = self.name(*episode);
             let found = lengths.get(name.as_str()).copied().unwrap_or(0);
             if let Some(stated) = numbers.get("length").filter(|stated| **stated != found as f64) {
-                flag(&name, format!("its `length` is {stated}; the tables have {found} frames of it"));
+                flag(
+                    &name,
+                    format!("its `length` is {stated}; the tables have {found} of it", found = counted(found, "frame")),
+                );
             }
         }
     }

@@ -1,5 +1,6 @@
 //! Video files without decoding: whether they are whole, and their stated length.
 
+use cosfly_diagnose::counted;
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
@@ -26,11 +27,15 @@ pub fn seconds(path: &Path) -> Result<f64, String> {
         }
         let (kind, size, header) = head_of(&head, end - at);
         if size < header || size > end - at {
-            return Err(format!("it is cut: its box `{kind}` at byte {at} has {size} bytes, {} are there", end - at));
+            return Err(format!(
+                "it is cut: its box `{kind}` at byte {at} has {size}, {} are there",
+                end - at,
+                size = counted(size, "byte")
+            ));
         }
         if kind == "moov" {
             if size > MOOV_LIMIT {
-                return Err(format!("its index has {size} bytes"));
+                return Err(format!("its index has {size}", size = counted(size, "byte")));
             }
             let mut body = vec![0; (size - header) as usize];
             let read = file.seek(SeekFrom::Start(at + header)).and_then(|_| file.read_exact(&mut body));

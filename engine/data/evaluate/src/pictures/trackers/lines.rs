@@ -1,6 +1,6 @@
 //! Boxes in the lines of a tracker's file. A file with a faulty line is refused: what it says of the other pictures is in doubt.
 
-use cosfly_diagnose::plausible;
+use cosfly_diagnose::{counted, plausible};
 use cosfly_schema::mot_class::COUNTED;
 use std::collections::BTreeSet;
 
@@ -58,7 +58,7 @@ pub fn target(bytes: &[u8], pictures: usize) -> Result<Vec<[f64; 4]>, LineFault>
         let at = |(kind, reason)| (number, kind, reason);
         let values = numbers(line).map_err(at)?;
         let Ok(values) = <[f64; 4]>::try_from(values.as_slice()) else {
-            let reason = format!("{} columns; a line has 4: left, top, width, height", values.len());
+            let reason = format!("{}; a line has 4: left, top, width, height", counted(values.len(), "column"));
             return Err((number, "columns", reason));
         };
         size(&values).map_err(at)?;
@@ -69,7 +69,11 @@ pub fn target(bytes: &[u8], pictures: usize) -> Result<Vec<[f64; 4]>, LineFault>
         lines => Err((
             lines.max(1),
             "length",
-            format!("the file ends after {lines} lines; the sequence has {pictures} pictures"),
+            format!(
+                "the file ends after {lines}; the sequence has {pictures}",
+                pictures = counted(pictures, "picture"),
+                lines = counted(lines, "line")
+            ),
         )),
     }
 }
@@ -81,8 +85,8 @@ fn track(line: &str, pictures: usize) -> Result<(usize, FoundBox), Fault> {
     let [fewest, most] = OF_MANY;
     if !(fewest..=most).contains(&values.len()) {
         let reason = format!(
-            "{} columns; a line has {fewest} to {most}: picture, id, left, top, width, height, score",
-            values.len()
+            "{}; a line has {fewest} to {most}: picture, id, left, top, width, height, score",
+            counted(values.len(), "column")
         );
         return Err(("columns", reason));
     }

@@ -2,7 +2,7 @@
 
 use crate::pictures::settings::{PictureKind, PictureSettings};
 use crate::windows::Flights;
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, counted};
 use serde::Deserialize;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -77,8 +77,11 @@ fn listed(path: &Path, flights: &Flights) -> Result<Vec<TrackedSequence>> {
         let last = steps.and_then(|steps| steps.checked_add(line.first_frame));
         if line.every == 0 || last.is_none_or(|last| last >= flights.rows[flight].frames) {
             let frames = flights.rows[flight].frames;
-            let what = format!("{} pictures, of every {} frames", line.pictures, line.every);
-            return Err(refused(number, format!("`{}` has {frames} frames, and not {what}", line.trajectory_id)));
+            let what = format!("{}, of every {} frames", counted(line.pictures, "picture"), line.every);
+            return Err(refused(
+                number,
+                format!("`{}` has {frames}, and not {what}", line.trajectory_id, frames = counted(frames, "frame")),
+            ));
         }
         if !names.insert(line.sequence.clone()) {
             return Err(refused(number, format!("a second sequence `{}`; names must differ", line.sequence)));

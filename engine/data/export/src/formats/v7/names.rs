@@ -1,7 +1,7 @@
 //! Towns, pairs and traces as folders, the same ones whichever flights are chosen.
 
 use crate::source::Source;
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, counted};
 use cosfly_fingerprint::Digest;
 use cosfly_read::PublishedFlight;
 use schemars::JsonSchema;
@@ -199,7 +199,8 @@ fn town_names(towns: &BTreeSet<&str>, asked: &[TownName]) -> Result<BTreeMap<Str
         }
         let free = TOWNS.iter().find(|name| names.values().all(|taken| family(taken) != **name));
         let Some(free) = free else {
-            let message = format!("the dataset has {} towns; v7 has {} names for them", towns.len(), TOWNS.len());
+            let message =
+                format!("the dataset has {}; v7 has {} names for them", counted(towns.len(), "town"), TOWNS.len());
             return Err(Diagnostic::new("export-towns", Fault::Recipe, message)
                 .hint("give them names with `--town NAME=Town01_Opt` and the like, or export in another format"));
         };

@@ -1,6 +1,6 @@
 //! A drone's state beside a trajectory: read from a line of JSON, checked before anyone plans from it.
 
-use cosfly_diagnose::{Diagnostic, Fault, LARGEST_MAGNITUDE, Result, nearest_name, plausible};
+use cosfly_diagnose::{Diagnostic, Fault, LARGEST_MAGNITUDE, Result, counted, nearest_name, plausible};
 use cosfly_frames::{DVec3, TargetTrack};
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::Value;
@@ -99,7 +99,11 @@ impl State {
         let state_refused = |message: String| Err(Diagnostic::new("ask-expert-state", Fault::Input, message));
         let Some(target) = track.states.get(self.frame) else {
             let (frame, frames) = (self.frame, track.len());
-            let message = format!("frame {frame} is beyond `{}`, which has {frames} frames", self.trajectory_id);
+            let message = format!(
+                "frame {frame} is beyond `{}`, which has {frames}",
+                self.trajectory_id,
+                frames = counted(frames, "frame")
+            );
             return Err(Diagnostic::new("ask-expert-frame", Fault::Input, message).hint("frames count from 0"));
         };
         let (place, velocity) = (self.position_in_world, self.velocity_in_world.unwrap_or_default());

@@ -5,7 +5,7 @@ use crate::command::Outcome;
 use crate::console::Console;
 use crate::exit;
 use clap::Args;
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, counted};
 use cosfly_fly::held_out::{Nonce, commitment, drawn, is_held_out, text, with_suite};
 use cosfly_fly::suite::Suite;
 use cosfly_runner::RunOptions;
@@ -66,8 +66,9 @@ impl Arguments {
         write(&published, &format!("{}\n", commitment(&text)))?;
         let (secret, published, episodes) = (secret.display(), published.display(), suite.tasks.len());
         console.print(&format!(
-            "{secret}: {episodes} episodes, to keep\n{published}: {}, to publish\n",
-            commitment(&text)
+            "{secret}: {episodes}, to keep\n{published}: {}, to publish\n",
+            commitment(&text),
+            episodes = counted(episodes, "episode")
         ))?;
         Ok(exit::SUCCESS)
     }

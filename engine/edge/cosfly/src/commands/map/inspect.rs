@@ -5,7 +5,7 @@ use crate::command::{Command, Outcome};
 use crate::console::Console;
 use crate::exit;
 use clap::Parser;
-use cosfly_diagnose::Diagnostic;
+use cosfly_diagnose::{Diagnostic, counted};
 use cosfly_experts::map_files::ReadMap;
 use cosfly_maps::advice::why_not_compared;
 use cosfly_maps::form::form;
@@ -184,8 +184,8 @@ fn text(map: &ReadMap, figures: &Value, plan: Option<&Path>) -> String {
     let report = &town.simplification;
     let _ = writeln!(
         text,
-        "\nthe planner sees {} boxes instead of {}: within {} m, {:.1} % of the volume gained, {:.2} % lost",
-        report.output_boxes,
+        "\nthe planner sees {} instead of {}: within {} m, {:.1} % of the volume gained, {:.2} % lost",
+        counted(report.output_boxes, "box"),
         report.input_boxes,
         report.tolerance_m,
         100.0 * report.added_volume_share,

@@ -1,5 +1,6 @@
 //! Figures of a textured mesh for `cosfly map inspect`: triangles, pictures, open edges, and how its key in a recipe is written.
 
+use cosfly_diagnose::counted;
 use cosfly_experts::map_files::ReadMap;
 use cosfly_models::mesh::{MeshConfig, MeshSurvey, NamedFile, TexturedMesh, named_files};
 use serde_json::{Value, json};
@@ -76,7 +77,7 @@ pub fn text(figures: &Value) -> String {
         return text;
     }
     let pictures = figures["textures"].as_array().map_or(&[][..], Vec::as_slice);
-    let _ = write!(text, "mesh: {} triangles, {} pictures", figures["triangles"], pictures.len());
+    let _ = write!(text, "mesh: {} triangles, {}", figures["triangles"], counted(pictures.len(), "picture"));
     if let Some(largest) = pictures.iter().max_by_key(|size| size[0].as_u64().max(size[1].as_u64())) {
         let share = 100.0 * figures["textured_share"].as_f64().unwrap_or_default();
         let _ = write!(text, " of up to {} x {} pixels on {share:.0} % of them", largest[0], largest[1]);
@@ -88,7 +89,11 @@ pub fn text(figures: &Value) -> String {
         let _ = write!(text, "; {open_m:.0} m of open edges: rims of holes and of the scan");
     }
     if let Some(left_out @ 1..) = figures["left_out"].as_u64() {
-        let _ = write!(text, "; {left_out} triangles without extent or far away are not drawn");
+        let _ = write!(
+            text,
+            "; {left_out} without extent or far away are not drawn",
+            left_out = counted(left_out, "triangle")
+        );
     }
     for remark in figures["remarks"].as_array().into_iter().flatten().filter_map(Value::as_str) {
         let _ = write!(text, "; {remark}");

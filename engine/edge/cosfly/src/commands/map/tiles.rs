@@ -5,7 +5,7 @@ use crate::console::Console;
 use crate::exit;
 use crate::text::count;
 use clap::Parser;
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, counted};
 use cosfly_scans::tiles::{JoinedTiles, TilesChoice, join};
 use cosfly_town::MapError;
 use std::path::{Path, PathBuf};
@@ -126,10 +126,10 @@ impl Arguments {
         let JoinedTiles { origin, tiles, tilesets, geometric_error_m, points, has_own_errors, glb } = joined;
         let name = self.out.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
         let mut text = format!(
-            "{} of {}, true to {geometric_error_m} m by their own statement: {} bytes\n",
+            "{} of {}, true to {geometric_error_m} m by their own statement: {}\n",
             count(*tiles as u64, "tile"),
             count(*tilesets as u64, "tileset"),
-            glb.len()
+            counted(glb.len(), "byte")
         );
         if *points > 0 {
             text += &format!("left out, as without triangles: {}\n", count(*points as u64, "part"));

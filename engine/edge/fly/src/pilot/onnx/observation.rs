@@ -1,6 +1,6 @@
 //! [`Observation`]: what an input of a network is fed with.
 
-use cosfly_diagnose::nearest_name;
+use cosfly_diagnose::{counted, nearest_name};
 use cosfly_domain::Channel;
 use cosfly_domain::channels::{self, Element};
 use cosfly_env::FEATURES;
@@ -84,7 +84,11 @@ impl Observation {
         let (shape, count) = (&port.shape, port.shape.iter().product::<usize>());
         let plain = |numbers: usize, order: Order| match count == numbers * history {
             true => Ok((None, order)),
-            false => Err(format!("its shape is {shape:?}; `{}` has {numbers} numbers, {history} times", self.name())),
+            false => Err(format!(
+                "its shape is {shape:?}; `{}` has {numbers}, {history} times",
+                self.name(),
+                numbers = counted(numbers, "number")
+            )),
         };
         let channel = match self {
             Self::State => return plain(FEATURES, Order::PixelsWhole),

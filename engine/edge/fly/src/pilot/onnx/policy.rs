@@ -1,7 +1,7 @@
 //! [`OnnxPolicy`]: a network that flies.
 
 use super::description::{Description, Source};
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, counted};
 use cosfly_fingerprint::Digest;
 use cosfly_onnx::{MOST_BYTES, OnnxModel, Tensor, TensorValues};
 use std::io::ErrorKind;
@@ -53,7 +53,7 @@ impl OnnxPolicy {
             return Err(refused("it is no file".to_owned())); // a device may have no end
         }
         if size > MOST_BYTES as u64 {
-            return Err(refused(format!("it has {size} bytes; it may have {MOST_BYTES}")));
+            return Err(refused(format!("it has {size}; it may have {MOST_BYTES}", size = counted(size, "byte"))));
         }
         let bytes = std::fs::read(path).map_err(|error| failed(&error))?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
