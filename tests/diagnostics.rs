@@ -192,7 +192,8 @@ fn on_a_full_disk_no_command_leaves_anything_and_none_advises_what_it_lacks() {
         let printed = cosfly(&words).within(street.path()).run();
         assert_eq!(printed.code, Some(5), "{line}: {}", printed.stderr);
         assert!(printed.stderr.contains("[disk-full]"), "{line}: {}", printed.stderr);
-        let entries = std::fs::read_dir(&disk.path).expect("a folder").map(|entry| entry.expect("readable").file_name());
+        let entries =
+            std::fs::read_dir(&disk.path).expect("a folder").map(|entry| entry.expect("readable").file_name());
         let names: Vec<String> = entries.map(|name| name.to_string_lossy().into_owned()).collect();
         assert_eq!(names, ["ballast"], "{line}");
         let help = cosfly(&[&words[..1], &["--help"]].concat()).run_ok().stdout;

@@ -27,8 +27,8 @@ mod hunt;
 mod leaderboard;
 mod long_walks;
 mod models;
-mod named_files;
 mod more_walkers;
+mod named_files;
 mod people;
 mod places;
 #[cfg(feature = "plugins")]

@@ -57,8 +57,12 @@ const LINES: &[(&str, i32)] = &[
 ];
 
 /// Lines whose `@` is a folder, of pictures, of trackers' files, of entries: an empty one is of the right kind. All end with 4.
-const FOLDERS: &[&str] =
-    &["eval out/street @ --kind depth", "eval out/street @ --kind tracks", "eval out/street @ --kind target", "leaderboard @"];
+const FOLDERS: &[&str] = &[
+    "eval out/street @ --kind depth",
+    "eval out/street @ --kind tracks",
+    "eval out/street @ --kind target",
+    "leaderboard @",
+];
 
 /// Options that name a file or folder to write, or to keep things in.
 const WRITTEN: &[&str] = &["--out", "--store", "--plan", "--export", "--resume"];
@@ -68,7 +72,9 @@ fn all_arguments_that_name_a_file_refuse_a_bad_one_alike() {
     let street = Street::new();
     let place = |name: &str| street.path().join(name);
     cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
-    cosfly(&["fly", "recipe.toml", "--policy", "follow", "--out", "flown", "--clips", "0"]).within(street.path()).run_ok();
+    cosfly(&["fly", "recipe.toml", "--policy", "follow", "--out", "flown", "--clips", "0"])
+        .within(street.path())
+        .run_ok();
     cosfly(&["fly", "bundle", "flown/follow", "--out", "bundle"]).within(street.path()).run_ok();
     std::fs::write(place("boxes.json"), r#"[{"image_id": 1, "category_id": 1, "bbox": [0, 0, 1, 1], "score": 1}]"#)
         .expect("writable");
@@ -106,11 +112,13 @@ fn refuses_all(folder: &Path, line: &str, code: i32) {
 
 #[test]
 fn no_argument_that_names_a_file_is_forgotten() {
-    let known: BTreeSet<(String, String)> = LINES.iter().map(|(line, _)| *line).chain(FOLDERS.iter().copied()).map(key).collect();
+    let known: BTreeSet<(String, String)> =
+        LINES.iter().map(|(line, _)| *line).chain(FOLDERS.iter().copied()).map(key).collect();
     let mut open = vec![vec![]];
     while let Some(path) = open.pop() {
         let help = cosfly(&[&path[..], &["--help".to_owned()]].concat()).run_ok().stdout;
-        let (mut commands, usage) = (vec![], help.lines().find(|line| line.starts_with("Usage: ")).expect("a usage").to_owned());
+        let (mut commands, usage) =
+            (vec![], help.lines().find(|line| line.starts_with("Usage: ")).expect("a usage").to_owned());
         let section = help.split("\nCommands:\n").nth(1).and_then(|text| text.split("\n\n").next()).unwrap_or_default();
         for line in section.lines() {
             let name = line.split_whitespace().next().unwrap_or_default();
@@ -128,7 +136,8 @@ fn no_argument_that_names_a_file_is_forgotten() {
                 assert!(known.contains(&wanted), "no line of this test tries {wanted:?}");
             }
         }
-        let has_file = ["<FILE>", "<RECIPE>", "<DATASET>", "<RESULT>", "<TILESET>", "<FOLDER>", "<DATASET|RESULT|RECIPE>"];
+        let has_file =
+            ["<FILE>", "<RECIPE>", "<DATASET>", "<RESULT>", "<TILESET>", "<FOLDER>", "<DATASET|RESULT|RECIPE>"];
         let positional = usage.split_whitespace().skip_while(|word| word.starts_with("--") || !word.starts_with('<'));
         if !path.is_empty() && positional.clone().any(|word| has_file.contains(&word)) && usage.ends_with('>') {
             let wanted = (path.join(" "), String::new());
@@ -140,9 +149,10 @@ fn no_argument_that_names_a_file_is_forgotten() {
 /// Command of a line, and the option that its `@` is of; no option for an argument with a place.
 fn key(line: &str) -> (String, String) {
     let words: Vec<&str> = line.split(' ').collect();
-    let at = words.iter().position(|word| word.starts_with('@')).expect("an @");
+    let at = words.iter().position(|word| word.contains('@')).expect("an @");
     let groups = ["cluster", "dataset", "fly", "map", "plugin"];
-    let second = words[1..2].iter().filter(|word| word.chars().all(|letter| letter.is_ascii_lowercase() || letter == '-'));
+    let second =
+        words[1..2].iter().filter(|word| word.chars().all(|letter| letter.is_ascii_lowercase() || letter == '-'));
     let command = match groups.contains(&words[0]) {
         true => [&words[..1], &second.copied().collect::<Vec<_>>()].concat().join(" "),
         false => words[0].to_owned(),
