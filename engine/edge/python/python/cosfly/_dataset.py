@@ -18,6 +18,7 @@ from ._cosfly import Reader, Table
 from ._errors import InvalidValue, NotFound, OutOfRange, WrongType, options, path_of
 from ._show import Frame, Town, Trajectory
 
+CHANNELS = ("rgb", "depth")
 ROLES = ("expert", "perturbed")
 ANCHORS = ("input", "expert")
 DIFFICULTIES = ("easy", "medium", "hard")
@@ -54,7 +55,8 @@ class Dataset:
     * ``captions`` where ``captions`` is a language: the text of each style, by its name (``""`` in other layouts).
 
     Foreign layouts give the tables ``trajectories``, ``frames``, ``captions`` and ``windows`` (of the default shape) with
-    the columns whose values they hold: v7 has ``rgb``, ``depth``, ``semantic`` and ``instance``, LeRobot ``rgb`` alone.
+    the columns whose values they hold: v7 has ``rgb``, ``depth``, ``semantic`` and ``instance``, LeRobot ``rgb``, and
+    ``depth`` where it is a feature in metres, as of ``cosfly export --depth`` (the sky is its greatest depth).
 
     Scaled colours are the mean over each pixel's area; other channels are sampled at the middle of each pixel. Without
     ``size`` all channels are bit for bit what the files hold. The object is map-style: ``torch.utils.data.DataLoader``
@@ -63,6 +65,7 @@ class Dataset:
     The object keeps the ``identity`` of the dataset that was opened. Where the folder is made anew meanwhile, pictures and
     tables that are asked for later raise :class:`cosfly.Error` (``dataset-changed``), in worker processes, too: open it again.
 
+    ``channels`` are ``rgb`` and ``depth`` by default; those that are named must be in the first flight.
     ``split`` is ``train``, ``val``, ``test`` or None for all; ``role`` is ``expert``, ``perturbed`` or None for both;
     ``trajectories`` are ids, or patterns such as ``"expert-*"`` (all flights of the stage ``expert``); ``size`` is (width,
     height); ``jobs`` threads decode the pictures of one call, of :meth:`batch` and of a :class:`Loader`.
@@ -80,7 +83,7 @@ class Dataset:
         split: Optional[str] = None,
         role: Optional[str] = None,
         trajectories: Union[None, str, Sequence[str]] = None,
-        channels: Sequence[str] = ("rgb", "depth"),
+        channels: Optional[Sequence[str]] = None,
         size: Optional[Tuple[int, int]] = None,
         columns: Sequence[str] = (),
         captions: Optional[str] = None,
@@ -88,7 +91,7 @@ class Dataset:
     ):
         self.path = Path(path_of(path))
         self.split, self.role = split, role
-        self.channels, self.size = tuple(channels), size
+        self.channels, self.size = CHANNELS if channels is None else tuple(channels), size
         self._opened: Tuple[int, Optional[Reader]] = (-1, None)
         self.jobs = _whole("jobs", jobs, 1)
         if split not in (None, "train", "val", "test"):
@@ -96,6 +99,7 @@ class Dataset:
         if role not in (None, *ROLES):
             raise InvalidValue(f"the role is {role!r}; roles are 'expert' and 'perturbed'")
         self.identity = self._reader.identity
+        self._reader.images([], list(self.channels), size, self.jobs)  # refuses names and sizes before the first sample
         ids = self._reader.trajectory_ids
         if split and not any(self._reader.splits):
             raise InvalidValue(f"the data in {self.path} state no splits; leave out `split`")
@@ -109,6 +113,9 @@ class Dataset:
         self._numbers: Optional[Dict[Tuple[str, int], int]] = None
         self._index = self._frames_index(columns)
         self._captions = self._read_captions(captions) if captions else {}
+        if channels is not None and self._index:
+            has = self.channels_of(self._index[0][0])
+            self._reader.images(self._places(self._index[:1]), [name for name in self.channels if name not in has])
 
     def _chosen(self, trajectories: Union[None, str, Sequence[str]]) -> Container[str]:
         """Ids of the trajectories that are asked for."""
