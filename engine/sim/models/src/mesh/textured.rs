@@ -55,12 +55,19 @@ impl TexturedMesh {
     /// Adds smaller copies to all pictures, of what triangles show of them.
     pub(super) fn add_copies(&mut self) {
         let mut used: Vec<UsedTexels> = self.textures.iter().map(MeshTexture::unused).collect();
+        let mut is_cut = vec![true; self.textures.len()];
+        for material in &self.materials {
+            if let Some(texture) = material.texture {
+                is_cut[texture as usize] &= material.least_alpha.is_some_and(|least| least > 0.0);
+            }
+        }
         for triangle in &self.triangles {
             if let Some(texture) = self.materials[triangle.material as usize].texture {
                 used[texture as usize].add(triangle.texture_places);
             }
         }
-        self.textures.iter_mut().zip(used).for_each(|(texture, used)| texture.add_copies(used));
+        let parts = used.into_iter().zip(is_cut);
+        self.textures.iter_mut().zip(parts).for_each(|(texture, (used, is_cut))| texture.add_copies(used, is_cut));
     }
 
     /// Linear colour and opacity of a triangle where its corners have these weights, for a pixel with these sides in its texture.
