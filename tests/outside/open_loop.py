@@ -72,14 +72,20 @@ def spearman(first, second):
     return spearmanr(first, second)[0] if np.ptp(first) > 0 and np.ptp(second) > 0 else 0.0
 
 
+def correlation(first, second):
+    return np.corrcoef(first, second)[0, 1] if np.ptp(first) > 0 and np.ptp(second) > 0 else 0.0
+
+
 def r2(truth, predicted):
-    return 1 - ((truth - predicted) ** 2).sum() / ((truth - truth.mean()) ** 2).sum()
+    """Not a number where all policies have one rate: there is nothing to explain."""
+    return 1 - ((truth - predicted) ** 2).sum() / ((truth - truth.mean()) ** 2).sum() if np.ptp(truth) > 0 else np.nan
 
 
 def interval(of, count):
     stream = np.random.default_rng(1)
-    draws = [of(stream.integers(0, count, count)) for _ in range(1000)]
-    return "[{:.2f}, {:.2f}]".format(*np.nanquantile(draws, [0.025, 0.975]))
+    draws = np.array([of(stream.integers(0, count, count)) for _ in range(1000)])
+    draws = draws[np.isfinite(draws)]
+    return "[{:.2f}, {:.2f}]".format(*np.quantile(draws, [0.025, 0.975])) if draws.size else "[none]"
 
 
 def table(suites):
@@ -95,7 +101,7 @@ def table(suites):
 
 rates, chosen = table(given.choose)
 test_rates, test = table(given.test)
-order = sorted(chosen, key=lambda it: np.corrcoef(chosen[it], rates)[0, 1])
+order = sorted(chosen, key=lambda it: correlation(chosen[it], rates))
 print(f"{len(POLICIES)} policies; chosen on {', '.join(given.choose)}, tested on {', '.join(given.test)}\n")
 print("| metric | expert's share | R2, chosen on | R2, tested | rank correlation, tested |\n| --- | --- | --- | --- | --- |")
 for name, share in order:
