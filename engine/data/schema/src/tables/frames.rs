@@ -29,7 +29,7 @@ columns! { Frames::COLUMNS of DatasetItem;
     split: String = |item, _| item.membership.split.name().to_owned();
     /// Number of the frame, from 0.
     frame: u32 = |_, i| i as u32;
-    /// Time of the frame, `frame * dt_s`; the same as in the log.
+    /// Time of the frame since the flight began: `frame * dt_s`, later by the `offset_s` of its camera; the same as in the log.
     time_s: f64 = |item, i| item.record.times().s(i);
     /// Expert or perturbed trajectory.
     role: Role = |item, _| item.record.role;

@@ -136,7 +136,7 @@ fn conventions(header: &PackHeader, is_wide: bool) -> BTreeMap<String, String> {
     };
     let depth = if is_wide { "distance along the ray of the pixel" } else { "planar: distance along the optical axis" };
     let mut conventions = entries([
-        ("time", "frame i is at i * dt_s; time 0 is the first frame".into()),
+        ("time", "frame i is at i * dt_s, later by `offset_s` of the camera where it has one; time 0 is the first frame of the flight".into()),
         ("map_frame", "right-handed, metres: x = x of CARLA, y = -y of CARLA, z up".into()),
         ("drone_frame", "x ahead, y left, z up; the camera sits and looks as its mount says, along x from the origin where that is 0".into()),
         ("camera_optical_frame", "x right, y down, z ahead".into()),
