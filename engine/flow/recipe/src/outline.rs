@@ -123,7 +123,8 @@ impl Reader<'_> {
         let Some(node) = entry.map(|entry| &entry.node) else { return false };
         let Some(text) = self.text("intermediates", node) else { return false };
         if !INTERMEDIATES.contains(&text.as_str()) {
-            let message = format!("`intermediates` is `{}`; it must be {}", short(&text), list(INTERMEDIATES, 2));
+            let message =
+                format!("`intermediates` is `{}`; it must be one of {}", short(&text), list(INTERMEDIATES, 2));
             self.problems.push(self.texts.problem("recipe-not-offered", &node.place, message));
         }
         text == INTERMEDIATES[1]

@@ -45,7 +45,7 @@ impl Command for Arguments {
         let text = match ALL.iter().find(|kind| kind.name == self.place) {
             Some(kind) => self.of_kind(kind)?,
             None if self.settings.is_empty() => generate_town(&GenerateConfig::default(), self.seed),
-            None => return Err(refused("`--set` takes the keys of the other places".into(), GRID_HINT.into()).into()),
+            None => return Err(refused("the place `grid` has no keys for `--set`".into(), GRID_HINT.into()).into()),
         };
         console.print(&text)?;
         Ok(exit::SUCCESS)
