@@ -77,3 +77,20 @@ fn a_quota_that_no_flight_meets_is_refused() {
     assert_eq!(printed.code, Some(3), "{}", printed.stderr);
     assert!(printed.stderr.contains("no flight loses its target for 30 to 40 s"), "{}", printed.stderr);
 }
+
+#[test]
+fn flights_that_follow_nobody_lose_nobody() {
+    let patrol = "use = \"plan\"\ninputs = { town = \"town\" }\nobjective = \"patrol\"\npatrol = { radius_m = 20 }";
+    let (expert, rest) = RECIPE.split_once("[stages.walkers]").expect("walkers");
+    let (_, frames) = rest.split_once("[stages.frames]").expect("frames");
+    let frames = frames.replace("\"perturbed\"", "").replace("\"expert\", ", "\"expert\"");
+    let street = Street::with(&format!("{expert}[stages.expert]\n{patrol}\n\n[stages.frames]{frames}"), &map());
+    cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
+    let printed = cosfly(&["doctor", "out/street"]).within(street.path()).run();
+    assert_eq!(printed.code, Some(0), "{}{}", printed.stdout, printed.stderr);
+    assert!(
+        printed.stdout.contains("1 without a flag") && !printed.stdout.contains("visible share"),
+        "{}",
+        printed.stdout
+    );
+}

@@ -209,6 +209,8 @@ fn episode(flight: &PublishedFlight, rows: &[FrameRow]) -> ExaminedEpisode {
     // Lenses that bend and rows that are taken one after the other move what is projected.
     let is_plain = flight.lens.is_none() && flight.readout_s == 0.0;
     let middle = DVec3::Z * (0.5 * flight.target_height_m);
+    // Inspections and patrols follow nobody.
+    let follows = flight.target_kind.is_some();
     let moment = |it: &FrameRow| {
         let action = it.action_in_world;
         ExaminedMoment {
@@ -217,14 +219,14 @@ fn episode(flight: &PublishedFlight, rows: &[FrameRow]) -> ExaminedEpisode {
             camera: it.camera_pose,
             next_in_world: action.map(|step| it.pose.position_in_world + DVec3::new(step[0], step[1], step[2])),
             turn_deg: action.map(|step| [step[3], step[4], step[5]]),
-            target_in_world: Some(it.target.feet_in_world + middle),
-            heading_and_speed: Some((it.target.heading_rad, it.target.speed_mps)),
+            target_in_world: follows.then_some(it.target.feet_in_world + middle),
+            heading_and_speed: follows.then_some((it.target.heading_rad, it.target.speed_mps)),
             in_image: it.full_box_px.map(|edges| {
                 let [left, top, right, bottom] = edges.map(f64::from);
                 (0.5 * (left + right), 0.5 * (top + bottom), bottom - top)
             }),
             visible_box: it.visible_box_px.map(|edges| edges.map(f64::from)),
-            visible: Some(it.visible_by_pixels),
+            visible: follows.then_some(it.visible_by_pixels),
             clearance_m: Some(it.clearance_m),
         }
     };
