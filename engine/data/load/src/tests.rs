@@ -88,6 +88,41 @@ fn frames_and_poses_are_the_same_in_all_layouts() {
 }
 
 #[test]
+fn depth_of_an_export_for_lerobot_is_that_of_the_dataset_up_to_its_greatest() {
+    let home = tempfile::tempdir().unwrap();
+    let [dataset, out] = ["sample", "lerobot"].map(|name| home.path().join(name));
+    sample::write_to_folder(&dataset, &DatasetConfig::default(), EncodingConfig::default()).unwrap();
+    let options = Map::from_iter([("depth".to_owned(), true.into()), ("max_depth_m".to_owned(), 40.into())]);
+    let format = cosfly_export::prepare("lerobot", options).unwrap();
+    format.write(&PublishedDataset::open(&dataset).unwrap(), &Default::default(), &out, &|_, _| {}).unwrap();
+    let [ours, lerobot] = [&dataset, &out].map(|folder| open(folder).unwrap());
+    let xs = reals(&*ours, "frames", "drone_x_m");
+    let depth = channels::called("depth").unwrap();
+    let depths = |source: &dyn FlightSource, flight: usize, frame: usize| match source.image(flight, depth, frame) {
+        Ok(StoredImage::Raw { data, width, height, pixel_bytes: 4 }) => {
+            let depths: Vec<f32> = data.as_chunks().0.iter().map(|depth| f32::from_le_bytes(*depth)).collect();
+            (depths, [width, height])
+        }
+        other => panic!("{other:?}"),
+    };
+    let (mut first, mut farther, mut nearer) = (0, 0, 0);
+    for (flight, known) in ours.flights().iter().enumerate() {
+        let other = flight_with(&*lerobot, &xs[first..first + known.frames]);
+        assert_eq!(lerobot.channels(other).unwrap(), ["rgb", "depth"]);
+        for frame in 0..known.frames {
+            let ((own, size), (read, of)) = (depths(&*ours, flight, frame), depths(&*lerobot, other, frame));
+            assert_eq!(size, of);
+            // The floats of the log, bit for bit; what is farther, and the sky, is the greatest depth.
+            assert!(own.iter().zip(&read).all(|(own, read)| own.min(40.0) == *read), "frame {frame}");
+            farther += own.iter().filter(|depth| **depth > 40.0).count();
+            nearer += own.iter().filter(|depth| **depth < 40.0).count();
+        }
+        first += known.frames;
+    }
+    assert!(farther > 0 && nearer > 0);
+}
+
+#[test]
 fn what_a_layout_does_not_hold_is_refused_with_what_it_holds() {
     let (_home, [ours, v7, lerobot]) = published();
     let refused = |folder: &Path, name: &str| {

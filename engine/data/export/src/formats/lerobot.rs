@@ -15,11 +15,11 @@ use crate::shared_options::{InstructionLanguage, InstructionOptions};
 use crate::source::{ExportedFlight, SensorReadings, Source};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::Pose;
+use cosfly_images::float_tiff;
 use cosfly_read::PublishedFlight;
 use cosfly_schema::log::reading::LoggedSensor;
 use cosfly_schema::tables::Table;
 use cosfly_write::table_file::TableWriter;
-use depth::tiff;
 use episodes::EpisodeFile;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -253,7 +253,7 @@ fn append_pictures(
             let sampled = if is_sampled { Some(rgb_of(&logged)?) } else { None };
             let Some(most) = max_depth_m else { return Ok((logged.rgb_file, sampled, None)) };
             logged.depth_m.iter_mut().for_each(|depth| *depth = depth.min(most));
-            let file = tiff(&logged.depth_m, [logged.width, logged.height])?;
+            let file = float_tiff::file(&logged.depth_m, [logged.width, logged.height])?;
             Ok((logged.rgb_file, sampled, Some((file, if is_sampled { logged.depth_m } else { vec![] }))))
         },
         |_, (file, rgb, depth)| {

@@ -4,10 +4,11 @@ use super::tasks;
 use crate::LoadedFlight;
 use crate::foreign::{Foreign, Pictures, damaged, identity, sound};
 use crate::layout::Layout;
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, counted};
 use cosfly_doctor::sources::lerobot::{self, features::Features};
 use cosfly_doctor::{ExaminedEpisode, Flag};
 use cosfly_domain::Channel;
+use cosfly_images::float_tiff;
 use cosfly_read::columns::{Column, column};
 use cosfly_read::{PictureColumn, PictureFile, StoredImage, inner_path};
 use serde_json::Value;
@@ -36,7 +37,7 @@ fn roots(folder: &Path) -> Vec<PathBuf> {
 /// `dataset-damaged` where tables cannot be read.
 fn open(folder: &Path, roots: &[PathBuf]) -> Result<Foreign<Tables>> {
     let (mut flights, mut episodes, mut has_poses) = (vec![], vec![], true);
-    let mut pictures = Tables { files: vec![], frames: vec![], feature: None, videos: vec![] };
+    let mut pictures = Tables { files: vec![], frames: vec![], features: [None, None], videos: vec![] };
     for root in roots {
         let (found, flags, _) = lerobot::motions(root)?;
         sound(root, &flags)?;
@@ -45,9 +46,12 @@ fn open(folder: &Path, roots: &[PathBuf]) -> Result<Foreign<Tables>> {
         has_poses &= features.position.is_some();
         let feature = main_picture(&features.pictures);
         let size = feature.as_ref().map_or([0, 0], |name| size_of(&info["features"][name]));
-        pictures.append(root, feature.as_deref())?;
+        let own = [feature, features.depth.clone()];
+        pictures.append(root, &own)?;
         pictures.videos.extend(features.videos.clone());
-        pictures.feature = pictures.feature.take().or(feature);
+        for (known, own) in pictures.features.iter_mut().zip(own) {
+            *known = known.take().or(own);
+        }
         let mut captions = captions(root)?;
         for (place, mut episode) in found.into_iter().enumerate() {
             episode.captions = captions.get_mut(place).map(std::mem::take).unwrap_or_default();
@@ -65,8 +69,8 @@ fn open(folder: &Path, roots: &[PathBuf]) -> Result<Foreign<Tables>> {
         }
     }
     let frames = flights.iter().zip(&pictures.frames).find(|(flight, rows)| flight.frames != rows.len());
-    if let Some((flight, rows)) = frames.filter(|_| pictures.feature.is_some()) {
-        let message = format!("{} frames have {} rows of pictures", flight.frames, rows.len());
+    if let Some((flight, rows)) = frames.filter(|_| !pictures.channels().is_empty()) {
+        let message = format!("{} frames have {} of pictures", flight.frames, counted(rows.len(), "row"));
         sound(folder, &[Flag::damage("index-mismatch", &flight.id, message)])?;
     }
     let mut tables = vec![];
@@ -115,18 +119,21 @@ fn size_of(feature: &Value) -> [u32; 2] {
 
 /// Pictures of all episodes.
 struct Tables {
-    /// Tables with the folder that names of files begin at.
-    files: Vec<(PathBuf, PictureColumn)>,
+    /// Tables with the folder that names of files begin at: columns of colours and of depth.
+    files: Vec<(PathBuf, [Option<PictureColumn>; 2])>,
     /// Table and row of each frame, flight by flight.
     frames: Vec<Vec<(u32, u32)>>,
-    feature: Option<String>,
+    /// Features of colours and of depth.
+    features: [Option<String>; 2],
     videos: Vec<String>,
 }
 
 impl Tables {
     /// Finds the rows of the frames of the dataset in `root`.
-    fn append(&mut self, root: &Path, feature: Option<&str>) -> Result<()> {
-        let Some(feature) = feature else { return Ok(()) };
+    fn append(&mut self, root: &Path, features: &[Option<String>; 2]) -> Result<()> {
+        if features.iter().all(Option::is_none) {
+            return Ok(());
+        }
         let mut episodes: BTreeMap<i64, Vec<(u32, u32)>> = BTreeMap::new();
         for path in data_tables(root)? {
             let file = self.files.len() as u32;
@@ -135,7 +142,8 @@ impl Tables {
                     episodes.entry(number).or_default().push((file, row));
                 }
             }
-            self.files.push((root.to_owned(), PictureColumn::open(&path, feature)?));
+            let column = |name: &Option<String>| name.as_ref().map(|name| PictureColumn::open(&path, name)).transpose();
+            self.files.push((root.to_owned(), [column(&features[0])?, column(&features[1])?]));
         }
         self.frames.extend(episodes.into_values());
         Ok(())
@@ -144,28 +152,50 @@ impl Tables {
 
 impl Pictures for Tables {
     fn channels(&self) -> &[&'static str] {
-        if self.feature.is_some() { &["rgb"] } else { &[] }
+        match &self.features {
+            [Some(_), Some(_)] => &["rgb", "depth"],
+            [Some(_), None] => &["rgb"],
+            [None, Some(_)] => &["depth"],
+            [None, None] => &[],
+        }
     }
 
     fn advice(&self) -> String {
-        match &self.feature {
-            Some(feature) => format!("this dataset holds rgb (`{feature}`); `channels=(\"rgb\",)` asks for that alone"),
-            None if !self.videos.is_empty() => format!(
+        let [colours, depth] = &self.features;
+        let held = [("rgb", colours), ("depth", depth)].map(|(name, feature)| Some((name, feature.as_ref()?)));
+        let held: Vec<(&str, &String)> = held.into_iter().flatten().collect();
+        match &held[..] {
+            [(name, feature)] => {
+                format!("this dataset holds {name} (`{feature}`); `channels=(\"{name}\",)` asks for that alone")
+            }
+            [..] if !held.is_empty() => "this dataset holds rgb and depth".to_owned(),
+            [..] if !self.videos.is_empty() => format!(
                 "its pictures are videos ({}), which cosfly does not decode; `channels=()` loads all else, and LeRobot \
                  converts videos to pictures",
                 self.videos.join(", ")
             ),
-            None => "this dataset has no pictures; `channels=()` loads all else".to_owned(),
+            [..] => "this dataset has no pictures; `channels=()` loads all else".to_owned(),
         }
     }
 
-    fn image(&self, flight: usize, _channel: &Channel, frame: usize) -> Result<StoredImage> {
+    fn image(&self, flight: usize, channel: &Channel, frame: usize) -> Result<StoredImage> {
         let (file, row) = self.frames[flight][frame];
-        let (root, pictures) = &self.files[file as usize];
+        let (root, columns) = &self.files[file as usize];
+        let is_depth = channel.name == "depth";
+        let pictures = columns[usize::from(is_depth)].as_ref().ok_or_else(|| {
+            damaged(root, "a split has no such pictures, and another one has", format!("`{}`", channel.name))
+        })?;
         let bytes = match pictures.file(row as usize)? {
             PictureFile::Stored(bytes) => bytes,
             PictureFile::Named(name) => named(root, &name)?,
         };
+        if is_depth {
+            let (depth_m, [width, height]) =
+                float_tiff::read(&bytes).map_err(|why| damaged(root, "a picture of depth cannot be read", why))?;
+            let data: Vec<u8> = depth_m.into_iter().flat_map(f32::to_le_bytes).collect();
+            let (width, height) = (width as u32, height as u32);
+            return Ok(StoredImage::Raw { data: data.into(), width, height, pixel_bytes: 4 });
+        }
         let format = if bytes.starts_with(b"\x89PNG") { "png" } else { "jpeg" };
         Ok(StoredImage::File(bytes, format.to_owned()))
     }

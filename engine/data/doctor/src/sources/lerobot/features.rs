@@ -62,6 +62,8 @@ pub struct Features {
     pub turn: Option<Parts<3>>,
     /// Pictures inside of tables, of colours.
     pub pictures: Vec<String>,
+    /// Pictures of depth in metres, inside of tables.
+    pub depth: Option<String>,
     /// Pictures in video files.
     pub videos: Vec<String>,
 }
@@ -76,7 +78,10 @@ impl Features {
         let mut found = Self::default();
         for (name, feature) in features.as_object().into_iter().flatten() {
             match feature["dtype"].as_str() {
-                Some("image") if feature["info"]["is_depth_map"] == true => {}
+                Some("image") if feature["info"]["is_depth_map"] == true => {
+                    let is_in_metres = feature["info"]["depth_unit"] == "m";
+                    found.depth = found.depth.or_else(|| is_in_metres.then(|| name.clone()));
+                }
                 Some("image") => found.pictures.push(name.clone()),
                 Some("video") => found.videos.push(name.clone()),
                 _ => found.vector(name, feature),
@@ -223,6 +228,7 @@ mod tests {
         assert_eq!(found.edges.map(|it| it.at), Some([0, 1, 2, 3]));
         assert_eq!((found.action.map(|it| it.at), found.turn.map(|it| it.at)), (Some([0, 1, 2]), Some([3, 4, 5])));
         assert_eq!(found.pictures, ["observation.images.rgb"]);
+        assert_eq!(found.depth.as_deref(), Some("observation.images.depth"));
     }
 
     #[test]
