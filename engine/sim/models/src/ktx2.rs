@@ -3,6 +3,7 @@
 use crate::picture::{Picture, check_size};
 use basisu::basislz::etc1s::Etc1sTranscoder;
 use basisu::uastc::unpack::unpack_uastc;
+use cosfly_diagnose::counted;
 
 /// First bytes of a file.
 pub(crate) const MAGIC: &[u8] = b"\xabKTX 20\xbb\r\n\x1a\n";
@@ -13,6 +14,8 @@ const UASTC: u8 = 166;
 const PLAIN: u32 = 0;
 const BASIS_LZ: u32 = 1;
 const ZSTANDARD: u32 = 2;
+/// Most bytes of a picture for each byte packed by Zstandard, whose shortest block has four bytes and holds 128 KiB at most.
+const MOST_EXPANSION: usize = (128 << 10) / 4;
 /// Pixels of a block's side.
 const SIDE: usize = 4;
 
@@ -64,10 +67,13 @@ fn part(bytes: &[u8], start: usize, length: usize) -> Option<&[u8]> {
 fn unpacked(level: &[u8], packing: u32, size: usize) -> Result<Vec<u8>, String> {
     let own = match packing {
         PLAIN => level.to_vec(),
+        ZSTANDARD if size.div_ceil(MOST_EXPANSION) > level.len() => {
+            return Err(format!("its {} packed bytes cannot hold the {size} of its pixels", level.len()));
+        }
         ZSTANDARD => zstd::bulk::decompress(level, size).map_err(|error| error.to_string())?,
         _ => return Err(format!("it is packed in way {packing}")),
     };
-    if own.len() == size { Ok(own) } else { Err(format!("it has {} bytes of pixels for {size}", own.len())) }
+    if own.len() == size { Ok(own) } else { Err(format!("it has {} of pixels for {size}", counted(own.len(), "byte"))) }
 }
 
 fn uastc(blocks: &[u8], width: usize, height: usize) -> Option<Picture> {
@@ -111,4 +117,33 @@ fn etc1s(bytes: &[u8], level: &[u8], levels: usize, width: usize, height: usize)
         decoder.transcode_image_rgba32(colour, alpha, across, down, wide, high, None, &mut samples)?;
     }
     Some(Picture::of_samples(&samples, width, 4))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A file of plain pixels of four bytes, packed by Zstandard.
+    fn file([width, height]: [u32; 2], level: &[u8]) -> Vec<u8> {
+        let numbers = [43, 1, width, height, 0, 0, 1, 1, ZSTANDARD, 104, 44, 0, 0, 0, 0, 0, 0];
+        let mut file = MAGIC.to_vec();
+        file.extend(numbers.iter().flat_map(|number: &u32| number.to_le_bytes()));
+        file.extend(
+            [148, level.len() as u64, u64::from(width) * u64::from(height) * 4].map(u64::to_le_bytes).as_flattened(),
+        );
+        file.resize(148, 0);
+        file.extend(level);
+        file
+    }
+
+    #[test]
+    fn a_few_bytes_hold_a_picture_of_one_colour_and_no_more_pixels_than_they_can() {
+        let level = zstd::bulk::compress(&[40, 120, 20, 255].repeat(2048 * 2048), 3).expect("packed");
+        let picture = read(&file([2048, 2048], &level), 1 << 26).expect("a picture");
+        assert_eq!((picture.width, picture.height, picture.rgb[77]), (2048, 2048, [40, 120, 20]));
+        assert!(picture.rgb.len() > 2000 * level.len(), "{} bytes", level.len());
+        let claimed = read(&file([8192, 8192], &level[..2048]), 1 << 26).err().expect("refused");
+        assert_eq!(claimed, "its 2048 packed bytes cannot hold the 268435456 of its pixels");
+        assert!(read(&file([8192, 8192], &level), 1 << 26).is_err());
+    }
 }
