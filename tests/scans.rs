@@ -16,7 +16,7 @@ fn street(lines: &str) -> Street {
     let places = (-15..15).flat_map(|x| (-15..15).map(move |y| [4.0 * x as f32, 4.0 * y as f32, 0.0]));
     let splat = |middle| Splat::plain(middle, [2.0, 2.0, 0.02], [1.0, 0.0, 0.0, 0.0], 0.9, YELLOW);
     let splats: Vec<Splat> = places.map(splat).collect();
-    std::fs::write(street.path().join("street.ply"), to_ply(&splats)).expect("writable");
+    std::fs::write(street.path().join("street.ply"), to_ply(&splats, "street.xodr")).expect("writable");
     street
 }
 

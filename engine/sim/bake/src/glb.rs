@@ -17,7 +17,7 @@ impl BakedTown {
     ///
     /// # Errors
     /// Pictures that cannot be encoded.
-    pub fn to_glb(&self) -> Result<Vec<u8>, png::EncodingError> {
+    pub fn to_glb(&self, source: &str) -> Result<Vec<u8>, png::EncodingError> {
         let atlas = Atlas::new(&self.patches);
         let mut things: BTreeMap<(u8, u32), BTreeMap<usize, Vec<usize>>> = BTreeMap::new();
         for (at, patch) in self.patches.iter().enumerate() {
@@ -44,7 +44,8 @@ impl BakedTown {
         };
         let materials: Vec<Value> = numbers.map(material).collect();
         let document = json!({
-            "asset": { "version": "2.0", "generator": "cosfly" }, "extensionsUsed": ["KHR_materials_unlit"],
+            "asset": { "version": "2.0", "generator": "cosfly", "extras": { "source": source } },
+            "extensionsUsed": ["KHR_materials_unlit"],
             "scene": 0, "scenes": [{ "nodes": (0..nodes.len()).collect::<Vec<_>>() }], "nodes": nodes, "meshes": meshes,
             "materials": materials, "textures": textures, "images": images, "accessors": file.accessors,
             "bufferViews": file.views, "buffers": [{ "byteLength": file.data.len() }],

@@ -19,7 +19,7 @@ const SAMPLES: u32 = 4;
 /// A town in its own mesh, with pictures of 5 cm a pixel.
 fn scanned(town: &Town) -> Scene {
     let weather = cosfly_materials::presets::clear_noon();
-    let bytes = bake(town, SEED, &weather, 0.05).expect("a small town").to_glb().expect("a file");
+    let bytes = bake(town, SEED, &weather, 0.05).expect("a small town").to_glb("a town").expect("a file");
     let config = MeshConfig::new("town.glb");
     let mesh = TexturedMesh::read(&bytes, &[], &config.place(DVec3::ZERO).expect("a place")).expect("a mesh");
     let mesh = Some(Arc::new(SceneMesh::new(mesh, &config, town)));

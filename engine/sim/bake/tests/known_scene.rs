@@ -84,7 +84,7 @@ fn colours_apart(a: &FrameImages, b: &FrameImages, pixels: &[usize]) -> u8 {
 
 #[test]
 fn a_town_as_its_own_mesh_has_its_depth_labels_visibility_and_colours() {
-    let bytes = baked(TEXEL_M).to_glb().expect("a file");
+    let bytes = baked(TEXEL_M).to_glb("a town").expect("a file");
     let (read, _) = read_town(&bytes, &MapConfig::default(), Seed([5; 32])).expect("a map");
     let config = MeshConfig::new("town.glb");
     let mesh = || TexturedMesh::read(&bytes, &[], &config.place(DVec3::ZERO).expect("a place")).expect("a mesh");
@@ -159,7 +159,7 @@ fn a_town_as_its_own_splats_has_its_depth_and_colours() {
 
 #[test]
 fn one_town_gives_the_same_bytes_and_too_many_pixels_are_refused() {
-    let coarse = || baked(1.0).to_glb().expect("a file");
+    let coarse = || baked(1.0).to_glb("a town").expect("a file");
     assert_eq!(coarse(), coarse(), "the same bytes twice");
     let refused = bake(&town(), SEED, &noon(), 0.002).err();
     assert!(refused.is_some_and(|BakeProblem { texels }| texels > 60_000_000));
@@ -246,7 +246,8 @@ fn tiled(fine: &[u8], coarse: &[u8]) -> Tiles {
 
 #[test]
 fn a_town_in_tiles_films_like_its_whole_mesh() {
-    let (fine, coarse) = (baked(TEXEL_M).to_glb().expect("a file"), baked(1.0).to_glb().expect("a file"));
+    let (fine, coarse) =
+        (baked(TEXEL_M).to_glb("a town").expect("a file"), baked(1.0).to_glb("a town").expect("a file"));
     let tiles = tiled(&fine, &coarse);
     let joined = |choice: &TilesChoice| {
         join("tileset.json", choice, &mut |path| Ok(tiles.get(path).unwrap_or_else(|| panic!("`{path}`")).clone()))

@@ -4,8 +4,11 @@ use crate::splat::Splat;
 use cosfly_frames::real;
 
 /// Splats as a binary `.ply` with colours of degree 0.
-pub fn to_ply(splats: &[Splat]) -> Vec<u8> {
-    let mut head = format!("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", splats.len());
+pub fn to_ply(splats: &[Splat], source: &str) -> Vec<u8> {
+    // A line of its own, whatever the name is.
+    let source = source.replace(char::is_control, " ");
+    let mut head =
+        format!("ply\nformat binary_little_endian 1.0\ncomment source {source}\nelement vertex {}\n", splats.len());
     for name in "x y z f_dc_0 f_dc_1 f_dc_2 opacity scale_0 scale_1 scale_2 rot_0 rot_1 rot_2 rot_3".split(' ') {
         head += &format!("property float {name}\n");
     }
@@ -30,7 +33,7 @@ mod tests {
     fn what_is_written_is_read() {
         let turn = [0.5, -0.5, 0.5, 0.5];
         let splat = Splat::plain([1.0, 2.0, -3.0], [0.1, 0.2, 0.3], turn, 0.9, [0.2, 0.5, 1.0]);
-        let cloud = crate::read(&to_ply(&[splat; 3])).expect("a cloud").cloud;
+        let cloud = crate::read(&to_ply(&[splat; 3], "of two\nlines.osm")).expect("a cloud").cloud;
         assert_eq!((cloud.len(), cloud.bounds()), (3, [[1.0, 2.0, -3.0]; 2]));
         let block = &cloud.blocks()[0];
         assert!((block.opacity[2] - 0.9).abs() < 1e-5);

@@ -11,6 +11,7 @@ use crate::way_out::or_advice;
 use cosfly_frames::DVec3;
 use cosfly_town::MapError;
 use glam::DMat4;
+use serde_json::json;
 use std::rc::Rc;
 
 /// Deepest nesting of tiles and of tilesets, and most of both.
@@ -81,8 +82,9 @@ pub fn join(
         let error = MapError::new("no tile has shapes");
         return Err(error.hint("give a wider area, or none; it counts in metres from the origin"));
     }
-    found.glb = joined.into_glb();
     found.origin = frame.and_then(|frame| frame.origin).map(|origin| origin.degrees());
+    let about = json!({ "source": name, "origin": found.origin, "geometric_error_m": found.geometric_error_m });
+    found.glb = joined.into_glb(&about);
     Ok(found)
 }
 
@@ -277,9 +279,10 @@ fn matrix_of(tile: &Tile) -> DMat4 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gltf::document::chunks;
     use crate::mesh::MeshOptions;
     use cosfly_town::MapFormat;
-    use serde_json::{Value, json};
+    use serde_json::Value;
 
     /// Joins a tileset whose every other file is `content`.
     fn joined(root: &Value, content: &[u8]) -> Result<JoinedTiles, MapError> {
@@ -348,6 +351,33 @@ mod tests {
         check_refused(&tile("tileset.json"), b"", "nested deeper");
         let twice = json!({ "contents": [{ "uri": "tileset.json" }, { "uri": "tileset.json" }] });
         check_refused(&twice, b"", "nested deeper");
+    }
+
+    #[test]
+    fn the_file_names_its_source_and_the_owners_of_its_tiles() {
+        let asset = |glb: &[u8]| {
+            let document: Value = serde_json::from_slice(chunks(glb).expect("a file").0).expect("JSON");
+            document["asset"].clone()
+        };
+        let owned = |owner: &str| {
+            let (text, blob) = chunks(crate::gltf::GlTf::EXAMPLE).expect("a file");
+            let mut document: Value = serde_json::from_slice(text).expect("JSON");
+            document["asset"]["copyright"] = owner.into();
+            let mut text = document.to_string();
+            text.push_str(&"   "[..text.len().next_multiple_of(4) - text.len()]);
+            let blob = blob.expect("a blob");
+            let number = |of: usize| (of as u32).to_le_bytes();
+            let head = [&b"glTF\x02\0\0\0"[..], &number(28 + text.len() + blob.len()), &number(text.len()), b"JSON"];
+            [&head.concat(), text.as_bytes(), &number(blob.len()), b"BIN\0", blob].concat()
+        };
+        let both = json!({ "geometricError": 0, "contents": [{ "uri": "b.glb" }, { "uri": "a.glb" }] });
+        let tileset = json!({ "asset": { "version": "1.1" }, "geometricError": 1, "root": both }).to_string();
+        let joined = join("town.json", &TilesChoice::default(), &mut |path| {
+            Ok(if path == "town.json" { tileset.clone().into_bytes() } else { owned(&format!("owner of {path}")) })
+        });
+        let found = asset(&joined.expect("a mesh").glb);
+        assert_eq!(found["extras"], json!({ "source": "town.json", "origin": null, "geometric_error_m": 0.0 }));
+        assert_eq!(found["copyright"], "owner of a.glb; owner of b.glb");
     }
 
     #[test]

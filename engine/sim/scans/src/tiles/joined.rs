@@ -38,6 +38,8 @@ pub(super) struct Joined {
     unpacked: u64,
     roots: Vec<usize>,
     text_bytes: usize,
+    /// Whom its files name as their owners.
+    copyrights: BTreeSet<String>,
     /// Extensions that some of its files use, and those without which it cannot be read.
     used: BTreeSet<&'static str>,
     required: BTreeSet<&'static str>,
@@ -77,6 +79,7 @@ impl Joined {
         if is_of_points(&document) {
             return Ok(false);
         }
+        self.copyrights.extend(document["asset"]["copyright"].as_str().map(str::to_owned));
         let mut part = Part { document: &document, first: self.lists.each_ref().map(Vec::len), buffers: vec![] };
         for (index, buffer) in list(&document, "buffers").iter().enumerate() {
             let own;
@@ -180,16 +183,20 @@ impl Joined {
         Ok(at)
     }
 
-    /// The file.
-    pub fn into_glb(mut self) -> Vec<u8> {
+    /// The file, with the owners that its parts name and with what is known about where it is from.
+    pub fn into_glb(mut self, about: &Value) -> Vec<u8> {
         self.required.insert("KHR_mesh_quantization");
         self.required.extend(self.used.contains(DRACO).then_some(DRACO));
         self.used.insert("EXT_mesh_gpu_instancing");
         self.used.extend(&self.required);
         let mut buffers = vec![json!({ "byteLength": self.data.len() })];
         buffers.extend((self.unpacked > 0).then(|| json!({ "byteLength": self.unpacked })));
+        let mut asset = json!({ "version": "2.0", "generator": "cosfly", "extras": about });
+        if !self.copyrights.is_empty() {
+            asset["copyright"] = Vec::from_iter(std::mem::take(&mut self.copyrights)).join("; ").into();
+        }
         let mut document = json!({
-            "asset": { "version": "2.0", "generator": "cosfly" }, "scene": 0, "scenes": [{ "nodes": self.roots }],
+            "asset": asset, "scene": 0, "scenes": [{ "nodes": self.roots }],
             "extensionsUsed": self.used, "extensionsRequired": self.required, "buffers": buffers,
         });
         for (name, list) in LISTS.into_iter().zip(std::mem::take(&mut self.lists)).filter(|(_, list)| !list.is_empty())

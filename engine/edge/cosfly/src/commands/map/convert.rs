@@ -80,7 +80,7 @@ fn weather() -> Weather {
 impl Arguments {
     fn mesh(&self, town: &Town) -> Result<(Vec<u8>, String), Box<Diagnostic>> {
         let baked = self.baked(town)?;
-        let bytes = baked.to_glb().map_err(|error| {
+        let bytes = baked.to_glb(&name(&self.file)).map_err(|error| {
             Diagnostic::new("map-convert", Fault::Machine, format!("the pictures cannot be encoded: {error}"))
         })?;
         Ok((bytes, format!("mesh = {{ source = {:?} }}", name(&self.out))))
@@ -91,7 +91,10 @@ impl Arguments {
         if splats.len() > MOST_SPLATS {
             return Err(self.too_large(splats.len(), "splats", MOST_SPLATS));
         }
-        Ok((cosfly_splats::to_ply(&splats), format!("splats = {{ source = {:?}, up_axis = \"z\" }}", name(&self.out))))
+        Ok((
+            cosfly_splats::to_ply(&splats, &name(&self.file)),
+            format!("splats = {{ source = {:?}, up_axis = \"z\" }}", name(&self.out)),
+        ))
     }
 
     fn baked(&self, town: &Town) -> Result<cosfly_bake::BakedTown, Box<Diagnostic>> {
