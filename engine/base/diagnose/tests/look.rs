@@ -39,8 +39,8 @@ fn without_a_file_there_is_no_gutter_and_long_hints_wrap() {
     error[disk-full]: could not write `store/objects/ab`
      = because: no storage space
      = because: the disk is mounted at `/data`
-     = help: free some space or choose another disk with `--store` and `--out`, then run the same
-             command again: finished items are kept
+     = help: free some space, or choose another disk for what is written, then run the same command
+             again (finished items of a run are kept)
     "#);
 }
 
