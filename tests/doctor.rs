@@ -84,8 +84,9 @@ fn flights_that_follow_nobody_lose_nobody() {
     let (expert, rest) = RECIPE.split_once("[stages.walkers]").expect("walkers");
     let (_, frames) = rest.split_once("[stages.frames]").expect("frames");
     let frames = frames.replace("\"perturbed\"", "").replace("\"expert\", ", "\"expert\"");
-    let street = Street::with(&format!("{expert}[stages.expert]\n{patrol}\n\n[stages.frames]{frames}"), &map());
-    cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
+    let street = inspected_in(&format!("{expert}[stages.expert]\n{patrol}\n\n[stages.frames]{frames}"), "");
+    let printed = cosfly(&["run", "recipe.toml"]).within(street.path()).run_ok();
+    assert!(printed.stdout.contains("kept: 1 of 1"), "{}", printed.stdout);
     let printed = cosfly(&["doctor", "out/street"]).within(street.path()).run();
     assert_eq!(printed.code, Some(0), "{}{}", printed.stdout, printed.stderr);
     assert!(

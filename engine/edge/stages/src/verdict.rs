@@ -24,7 +24,7 @@ const NAME: &str = "verdict";
 pub fn part(config: InspectConfig) -> StagePart {
     let doc = "The rendered flights.";
     let properties = StageProperties {
-        version: 1,
+        version: 2,
         parameters: parameters::canonical(&config),
         inputs: vec![ports::town(), ports::without_pictures(ports::gather("frames", FRAMES, false, doc))],
         bytes_per_item: 10_000,

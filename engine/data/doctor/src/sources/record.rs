@@ -49,6 +49,8 @@ fn moment(record: &RenderedTrajectory, frame: usize) -> ExaminedMoment {
     let trajectory = &record.trajectory;
     let (pose, state, view) = (trajectory.poses_in_world[frame], trajectory.track.states[frame], &record.views[frame]);
     let next = trajectory.poses_in_world.get(frame + 1);
+    // Inspections and patrols follow nobody.
+    let follows = record.target_kind().is_some();
     ExaminedMoment {
         time_s: record.times().s(frame),
         drone: pose,
@@ -58,14 +60,14 @@ fn moment(record: &RenderedTrajectory, frame: usize) -> ExaminedMoment {
             let [_, _, _, pitch, yaw, roll] = action::in_world(&pose, next);
             [pitch, yaw, roll]
         }),
-        target_in_world: Some(state.feet_in_world + DVec3::Z * (0.5 * trajectory.track.height_m)),
-        heading_and_speed: Some((state.heading_rad, state.speed_mps)),
+        target_in_world: follows.then_some(state.feet_in_world + DVec3::Z * (0.5 * trajectory.track.height_m)),
+        heading_and_speed: follows.then_some((state.heading_rad, state.speed_mps)),
         in_image: view.full_box.as_ref().map(|it| {
             let [left, top, right, bottom] = edges(it);
             (0.5 * (left + right), 0.5 * (top + bottom), bottom - top)
         }),
         visible_box: view.visible_box.as_ref().map(edges),
-        visible: Some(share(view)),
+        visible: follows.then_some(share(view)),
         clearance_m: Some(trajectory.clearance_m[frame]),
     }
 }
