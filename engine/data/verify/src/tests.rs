@@ -236,7 +236,7 @@ fn a_flight_whose_boxes_are_all_missing_is_found() {
     }
     let report = verify(with.path(), &Options::default(), &mut |_, _| {}).unwrap();
     let found = report.findings.iter().find(|it| it.rule == "verify-3d").expect("it is found");
-    assert!(found.file.ends_with(".mcap") && found.message.contains("it had 1 rows"), "{found}");
+    assert!(found.file.ends_with(".mcap") && found.message.contains("it had 1 row in"), "{found}");
 }
 
 /// The boxes of a body beside the target, which has no key points.
