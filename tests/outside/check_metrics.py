@@ -67,6 +67,10 @@ def check_waypoints(ours, truth, predicted):
     agree("MAE against scikit-learn", means["mae"], mean_absolute_error(zeros, wrapped))
     agree("MAE of positions against scikit-learn", means["position_mae_m"], mean_absolute_error(zeros[:, :3], wrapped[:, :3]))
     agree("MAE of rotations against scikit-learn", means["rotation_mae_deg"], mean_absolute_error(zeros[:, 3:], wrapped[:, 3:]))
+    ends = wrapped.reshape(predicted.shape)[:, -1]
+    ahead = Rotation.from_euler("z", truth[:, -1, 4], degrees=True).inv().apply(ends[:, :3])
+    agree("lasting error by scipy's rotations", means["lasting_m"], np.linalg.norm(ahead.mean(axis=0)))
+    agree("lasting turn by hand", means["lasting_turn_deg"], np.linalg.norm(ends[:, 3:5].mean(axis=0)))
     fde, last = np.array(fde), yaw[:, -1]
     for key, share in {
         "sr_0_5m": fde <= 0.5, "sr_1m": fde <= 1, "sr_2m": fde <= 2, "rot_acc_1deg": last <= 1, "rot_acc_5deg": last <= 5,

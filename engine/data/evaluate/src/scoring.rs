@@ -5,7 +5,7 @@ use crate::settings::Settings;
 use crate::strata::{COUNT, WindowStrata, is_seen, memberships};
 use crate::windows::{Flights, WindowSet};
 use cosfly_diagnose::Result;
-use cosfly_metrics::{Tally, errors};
+use cosfly_metrics::{LastingErrors, Tally, errors};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -104,12 +104,15 @@ fn tally(
         strata: [Tally::default(); COUNT],
         by_step_m: vec![0.0; windows.shape.horizon],
     };
+    let (mut lasting, mut lasting_by_stratum) = (LastingErrors::default(), [LastingErrors::default(); COUNT]);
     for ((number, window), membership) in windows.of_flight(entry, flights.rows[entry.0].frames).zip(memberships) {
         let waypoints = if wanted(number) { method.waypoints(flights, window, number, settings) } else { None };
         let Some(waypoints) = waypoints else { continue };
         let truth = flights.truth(window, &windows.shape);
         let mut tally = Tally::default();
-        tally.add_window(&errors(&waypoints, &truth));
+        let found = errors(&waypoints, &truth);
+        tally.add_window(&found);
+        lasting.add(&found);
         let boxes = method.boxes(flights, window, number, settings);
         if !boxes.is_empty() {
             for (predicted, truth) in boxes.iter().zip(flights.true_boxes(window, &windows.shape)) {
@@ -122,12 +125,15 @@ fn tally(
         for (stratum, total) in sum.strata.iter_mut().enumerate() {
             if membership & (1 << stratum) != 0 {
                 total.add(&tally);
+                lasting_by_stratum[stratum].add(&found);
             }
         }
         for ((sum, reached), truth) in sum.by_step_m.iter_mut().zip(&waypoints).zip(&truth) {
             *sum += (reached.position_in_world - truth.position_in_world).length();
         }
     }
+    sum.overall.add_lasting(&lasting);
+    sum.strata.iter_mut().zip(&lasting_by_stratum).for_each(|(total, lasting)| total.add_lasting(lasting));
     sum
 }
 

@@ -99,6 +99,18 @@ fn a_shifted_frame_and_a_flipped_yaw_show() {
     let found =
         evaluate(&Flights::read(&dataset).unwrap(), Some(("shifted", predictions(&shifted))), &settings).unwrap();
     assert!((score(&found, 0, "fde_m") - 3.0).abs() < 1e-9 && score(&found, 0, "sr_2m") == 0.0);
+    // A flight turns, so that an error along the world's x does not stay ahead of it; an error of height does.
+    assert!(score(&found, 0, "lasting_m") <= 3.0 + 1e-9 && score(&found, 0, "lasting_turn_deg") < 1e-9);
+    let high = perfect(&dataset, &settings, |pose| pose.position_in_world.z += 2.0);
+    let found = evaluate(&Flights::read(&dataset).unwrap(), Some(("high", predictions(&high))), &settings).unwrap();
+    assert!((score(&found, 0, "lasting_m") - 2.0).abs() < 1e-9);
+    assert!(
+        found.methods[0]
+            .strata
+            .values()
+            .flat_map(|names| names.values())
+            .all(|stratum| { stratum.scores.get("lasting_m").is_none_or(|score| (score.value - 2.0).abs() < 1e-9) })
+    );
     let flipped = perfect(&dataset, &settings, |pose| pose.yaw_rad = -pose.yaw_rad);
     let found =
         evaluate(&Flights::read(&dataset).unwrap(), Some(("flipped", predictions(&flipped))), &settings).unwrap();
@@ -151,7 +163,7 @@ fn zero_increments_score_exactly_as_the_baseline_that_predicts_zero() {
         let found =
             evaluate(&Flights::read(&dataset).unwrap(), Some(("zero", predictions(&given))), &settings).unwrap();
         assert_eq!(found.methods[1].name, "predict zero");
-        for key in ["ade_m", "fde_m", "yaw_mae_deg", "mae", "sr_1m"] {
+        for key in ["lasting_m", "lasting_turn_deg", "ade_m", "fde_m", "yaw_mae_deg", "mae", "sr_1m"] {
             assert_eq!(found.methods[0].scores[key], found.methods[1].scores[key], "{key}");
         }
     }

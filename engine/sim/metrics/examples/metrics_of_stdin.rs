@@ -1,7 +1,7 @@
 //! Metrics of a JSON document on standard input, as JSON; the outside check compares them with independent software.
 
 use cosfly_frames::{DVec3, Pose};
-use cosfly_metrics::{METRICS, Tally, bootstrap, boxes, errors};
+use cosfly_metrics::{LastingErrors, METRICS, Tally, bootstrap, boxes, errors};
 use serde_json::{Value, json};
 
 fn numbers(value: &Value) -> Vec<f64> {
@@ -31,7 +31,7 @@ fn rows(value: &Value) -> impl Iterator<Item = &Value> {
 
 fn main() {
     let given: Value = serde_json::from_reader(std::io::stdin().lock()).expect("JSON");
-    let mut all = Tally::default();
+    let (mut all, mut lasting) = (Tally::default(), LastingErrors::default()); // all windows are of one flight
     let mut clusters = vec![];
     let mut each = vec![];
     for window in rows(&given["windows"]) {
@@ -39,9 +39,11 @@ fn main() {
         let mut tally = Tally::default();
         tally.add_window(&found);
         all.add(&tally);
+        lasting.add(&found);
         clusters.push(tally);
         each.push(json!([found.ade_m, found.fde_m, found.final_yaw_deg, found.yaw_mae_deg, found.mae]));
     }
+    all.add_lasting(&lasting);
     let mut ious = vec![];
     for pair in rows(&given["boxes"]) {
         let (predicted, truth) = (edges(&pair[0]), edges(&pair[1]));
@@ -51,5 +53,5 @@ fn main() {
     let means: serde_json::Map<String, Value> =
         METRICS.iter().zip(all.means()).map(|(metric, mean)| (metric.key.to_owned(), json!(mean))).collect();
     let intervals = bootstrap::intervals(&clusters, bootstrap::RESAMPLES, 1);
-    println!("{}", json!({ "windows": each, "means": means, "iou": ious, "ade_interval": intervals[3] }));
+    println!("{}", json!({ "windows": each, "means": means, "iou": ious, "ade_interval": intervals[5] }));
 }

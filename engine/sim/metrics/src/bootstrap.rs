@@ -80,7 +80,11 @@ pub fn quantile(sorted: &[f64], share: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::WaypointErrors;
+    use crate::{METRICS, WaypointErrors};
+
+    fn fde(intervals: &Intervals) -> Option<(f64, f64)> {
+        intervals[METRICS.iter().position(|metric| metric.key == "fde_m").unwrap()]
+    }
 
     fn clusters(number: usize) -> Vec<Tally> {
         let mut stream = Seed::of_item(5, "test", "clusters").stream("errors");
@@ -96,7 +100,7 @@ mod tests {
 
     #[test]
     fn an_interval_is_as_wide_as_the_spread_of_trajectories_says() {
-        let (low, high) = intervals(&clusters(400), RESAMPLES, 1)[4].unwrap();
+        let (low, high) = fde(&intervals(&clusters(400), RESAMPLES, 1)).unwrap();
         let expected = 2.0 * 1.96 * 0.5 / 20.0;
         assert!(low < 3.0 && 3.0 < high && ((high - low) / expected - 1.0).abs() < 0.15, "{low} {high}");
     }
@@ -106,7 +110,7 @@ mod tests {
         let clusters = clusters(20);
         assert_eq!(intervals(&clusters, 50, 1), intervals(&clusters, 50, 1));
         assert_ne!(intervals(&clusters, 50, 1), intervals(&clusters, 50, 2));
-        assert_eq!(intervals(&clusters[..1], 50, 1)[4], None);
+        assert_eq!(fde(&intervals(&clusters[..1], 50, 1)), None);
     }
 
     #[test]

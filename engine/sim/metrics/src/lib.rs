@@ -31,4 +31,4 @@ pub mod waypoint;
 
 pub use deltas::{DeltaFrame, DeltaOrigin, waypoints};
 pub use scores::{METRICS, Metric, Tally};
-pub use waypoint::{WaypointErrors, errors};
+pub use waypoint::{LastingErrors, WaypointErrors, errors};

@@ -1,7 +1,7 @@
 //! The reported metrics: each is the mean of a value over windows (or over boxes).
 
 use crate::boxes::iou;
-use crate::waypoint::WaypointErrors;
+use crate::waypoint::{LastingErrors, WaypointErrors};
 use serde::Serialize;
 
 /// Direction of a metric.
@@ -54,16 +54,33 @@ const fn share(key: &'static str, name: &'static str, meaning: &'static str) -> 
 }
 
 /// Number of metrics.
-pub const COUNT: usize = 17;
+pub const COUNT: usize = 19;
+
+/// Metrics of whole flights; these are the first ones.
+const OF_FLIGHTS: usize = 2;
 
 /// Index of the first metric of boxes; these are the last ones.
-pub const FIRST_OF_BOXES: usize = 15;
+pub const FIRST_OF_BOXES: usize = 17;
 
 /// All metrics, in the order of tables.
 pub const METRICS: [Metric; COUNT] = {
     use Better::{Higher, Lower};
     use Unit::{Degrees, Metres, Mixed, Plain, Share};
     [
+        metric(
+            "lasting_m",
+            "Lasting error",
+            Metres,
+            Lower,
+            "length of a flight's mean error of the last waypoint along the heading, mean over flights",
+        ),
+        metric(
+            "lasting_turn_deg",
+            "Lasting turn",
+            Degrees,
+            Lower,
+            "length of a flight's mean error of pitch and yaw at the last waypoint, mean over flights",
+        ),
         metric("sr_0_5m", "SR@0.5m", Share, Higher, "windows whose last waypoint is within 0.5 m of the truth"),
         metric("sr_1m", "SR@1m", Share, Higher, "windows whose last waypoint is within 1 m"),
         metric("sr_2m", "SR@2m", Share, Higher, "windows whose last waypoint is within 2 m"),
@@ -129,10 +146,17 @@ impl Tally {
             yaw,
             share(fde > 10.0),
         ];
-        for (sum, value) in self.sums.iter_mut().zip(values) {
+        for (sum, value) in self.sums[OF_FLIGHTS..].iter_mut().zip(values) {
             *sum += value;
         }
         self.windows += 1.0;
+    }
+
+    /// Adds the lasting errors of a flight whose windows have been added; its weight is the number of its windows.
+    pub fn add_lasting(&mut self, lasting: &LastingErrors) {
+        for (sum, value) in self.sums.iter_mut().zip(lasting.lengths()) {
+            *sum += value;
+        }
     }
 
     /// Adds a predicted box; a missing one has an overlap of 0.
