@@ -9,6 +9,8 @@ pub struct FlightSketch {
     pub number: u64,
     /// Id.
     pub id: String,
+    /// Id of the flight, which several films may show; empty where films are flights.
+    pub flight_id: String,
     /// True for a perturbed flight, false for an expert's.
     pub is_perturbed: bool,
     /// Id of the pedestrian.

@@ -1,7 +1,7 @@
 //! Language: how different the texts are, what they speak of, whether they single the target out, what was refused.
 
 use crate::model::Report;
-use crate::sketch::TextSketch;
+use crate::sketch::{FlightSketch, TextSketch};
 use cosfly_captions::{Diversity, Language, coverage, diversity};
 use cosfly_plot::text::{escaped, grouped, percent};
 use std::collections::BTreeMap;
@@ -10,7 +10,7 @@ use std::fmt::Write;
 /// The section; empty where the drawn flights have no texts.
 pub fn section(report: &Report) -> String {
     let drawn = report.figures.drawn();
-    let texts: Vec<&TextSketch> = drawn.iter().flat_map(|flight| &flight.texts).collect();
+    let texts = different_by_flight(&drawn);
     if texts.is_empty() {
         return String::new();
     }
@@ -29,6 +29,21 @@ pub fn section(report: &Report) -> String {
         drawn.len()
     );
     html
+}
+
+/// Texts of the films, in their order, without those that another film of the same flight has had: texts are of flights.
+fn different_by_flight<'a>(films: &[&'a FlightSketch]) -> Vec<&'a TextSketch> {
+    let mut first: BTreeMap<[&str; 4], u64> = BTreeMap::new();
+    let mut texts = vec![];
+    for &film in films {
+        for text in &film.texts {
+            let key = [&film.flight_id, &text.language, &text.kind, &text.text].map(String::as_str);
+            if film.flight_id.is_empty() || *first.entry(key).or_insert(film.number) == film.number {
+                texts.push(text);
+            }
+        }
+    }
+    texts
 }
 
 fn of_language(texts: &[&TextSketch], language: Language) -> String {
@@ -104,7 +119,6 @@ fn tiles(texts: &[&TextSketch], figures: &Diversity) -> Vec<(&'static str, Strin
 mod tests {
     use super::*;
     use crate::figures::Figures;
-    use crate::sketch::FlightSketch;
 
     #[test]
     fn texts_are_counted_by_language_and_escaped() {
@@ -125,5 +139,21 @@ mod tests {
         assert!(html.contains("2 (100"), "{html}");
         assert!(html.contains("<td>wait</td><td>1 (50"), "{html}");
         assert_eq!(section(&Report::default()), "");
+    }
+
+    #[test]
+    fn a_text_of_several_films_of_a_flight_counts_once() {
+        let count = |flights: [&str; 2]| {
+            let text =
+                |kind: &str| TextSketch { kind: kind.to_owned(), text: "They stop.".into(), ..TextSketch::default() };
+            let film = |number: u64| FlightSketch {
+                number,
+                flight_id: flights[number as usize].to_owned(),
+                texts: vec![text("step"), text("goal"), text("step")],
+                ..FlightSketch::default()
+            };
+            different_by_flight(&[&film(0), &film(1)]).len()
+        };
+        assert_eq!((count(["a", "a"]), count(["a", "b"]), count(["", ""])), (3, 6, 6));
     }
 }

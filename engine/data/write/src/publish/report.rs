@@ -68,6 +68,7 @@ pub fn sketch(number: u64, item: &DatasetItem, split: &str) -> FlightSketch {
     FlightSketch {
         number,
         id: record.trajectory_id.clone(),
+        flight_id: record.flight_id.clone(),
         is_perturbed: record.role == Role::Perturbed,
         pedestrian: record.pedestrian_id.clone(),
         town: record.town.name.clone(),
