@@ -36,6 +36,11 @@ BAD = {
     "Dataset, a column": (lambda: cosfly.Dataset("data", columns=["nothing"]), cosfly.NotFound),
     "Dataset, a language": (lambda: cosfly.Dataset("data", captions="tlh"), cosfly.InvalidValue),
     "Dataset, a channel": (lambda: cosfly.Dataset("data", channels=("rgb", "rgbb")), cosfly.Error),
+    "Dataset, a number as channels": (lambda: cosfly.Dataset("data", channels=3), cosfly.WrongType),
+    "Dataset, numbers as columns": (lambda: cosfly.Dataset("data", columns=[3]), cosfly.WrongType),
+    "doctor, a quota alone": (lambda: cosfly.doctor("data", quotas="much", progress=False), cosfly.InvalidValue),
+    "export, a number as splits": (lambda: cosfly.export("data", "v7", "x", splits=3, progress=False), cosfly.WrongType),
+    "a state": (lambda: cosfly.Dataset("data").loader(2).load_state_dict({"epok": 1}), cosfly.InvalidValue),
     "Dataset, jobs": (lambda: cosfly.Dataset("data", jobs="two"), cosfly.WrongType),
     "a sample": (lambda: cosfly.Dataset("data")[10**9], cosfly.OutOfRange),
     "a sample by a fraction": (lambda: cosfly.Dataset("data")[1.5], cosfly.WrongType),
@@ -86,3 +91,12 @@ def test_former_names_say_what_they_are_called_now():
         cosfly.Made
     [answer] = cosfly.Expert("small").plan_from([{"trajectory": "expert-p00000", "frame": 4, "position_in_world": [0, 0, 9]}])
     assert "`\"trajectory\"` is not a field" in (answer.error or "")
+
+
+def test_a_name_alone_is_one_name():
+    alone, listed = (cosfly.Dataset("data", channels=it, columns=("time_s",)) for it in ("rgb", ["rgb"]))
+    assert alone.channels == listed.channels == ("rgb",) and "depth" not in alone[0]
+    assert "time_s" in cosfly.Dataset("data", channels=(), columns="time_s")[0]
+    assert list(alone.frame(alone.trajectory_ids[0], 0, "depth")) == ["depth"]
+    with pytest.raises(cosfly.Error, match="`rgbb`"):
+        cosfly.Dataset("data", channels="rgbb")

@@ -356,3 +356,16 @@ def test_calls_that_make_no_sense_are_refused():
             envs.reset(seed=seed)
     with pytest.raises(gym.error.ResetNeeded):
         cosfly.gym.Track("small/recipe.toml").step(np.zeros(5))
+
+
+def test_options_of_a_reset_are_named():
+    one, many = gym.make(ID, recipe="small/recipe.toml"), make_vec(num_envs=2)
+    with pytest.raises(cosfly.InvalidValue, match="no key 'epsode'; did you mean `episode`"):
+        one.reset(options={"epsode": "x"})
+    with pytest.raises(cosfly.InvalidValue, match="no key 'episode'; there is `reset_mask`"):
+        many.reset(options={"episode": "x"})
+    with pytest.raises(cosfly.WrongType):
+        one.reset(options=[("episode", "x")])
+    name = one.unwrapped.episodes()[0]
+    assert one.reset(options={"episode": name})[1]["episode"] == name
+    one.reset(options={}), many.reset(options={})

@@ -40,4 +40,8 @@ def test_wrong_files_and_actions_are_refused(tmp_path):
         cosfly.onnx.describe(file, {"seen": "state"}, "actions")
     with pytest.raises(ValueError, match="allowed are velocity"):
         cosfly.onnx.describe(file, {"seen": "state"}, "actions", actions="speed")
+    with pytest.raises(cosfly.InvalidValue, match="no key 'histori'; did you mean `history`"):
+        cosfly.onnx.describe(file, {"seen": {"observation": "rgb", "histori": 4}}, "actions")
+    with pytest.raises(cosfly.InvalidValue, match="allowed are simple, full"):
+        cosfly.onnx.describe(file, {"seen": "rgb"}, "actions", look="ful")
     assert file.read_bytes() == b"no network"

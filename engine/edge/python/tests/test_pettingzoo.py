@@ -20,6 +20,16 @@ def test_equal_seeds_give_equal_flights():
     parallel_seed_test(lambda: cosfly.parallel_env(RECIPE, num_drones=2), num_cycles=100)
 
 
+def test_options_of_a_reset_are_named():
+    env = cosfly.parallel_env(RECIPE)
+    with pytest.raises(cosfly.InvalidValue, match="no key 'episodes'; did you mean `episode`"):
+        env.reset(options={"episodes": "x"})
+    with pytest.raises(cosfly.WrongType, match="it is a dictionary with `episode`"):
+        env.reset(options="x")
+    with pytest.warns(UserWarning, match="no key 'wind', which does nothing; there is `episode`"):
+        env.reset(options={"wind": 1})
+
+
 def test_drones_start_apart_and_know_of_each_other():
     env = cosfly.parallel_env(RECIPE, num_drones=3)
     observations, infos = env.reset(seed=4)

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Type, TypeVar, Union
 
 from . import _cosfly, _toml
-from ._errors import InvalidValue, WrongType, options, path_of
+from ._errors import InvalidValue, WrongType, names_of, options, path_of
 from ._show import Bars
 
 if TYPE_CHECKING:
@@ -305,14 +305,14 @@ def verify(
 
 @options(imperfect="`imperfect_share`, 0 to 1")
 def doctor(
-    data: PathLike, *, imperfect_share: float = 0.05, quotas: Sequence[str] = (), progress: Progress = True
+    data: PathLike, *, imperfect_share: float = 0.05, quotas: Union[str, Sequence[str]] = (), progress: Progress = True
 ) -> DoctorResult:
     """Examine anyone's data (cosfly, v7, LeRobot): leaks, signs, units, shifts, frozen frames, limits.
 
     ``imperfect_share`` is the share of imperfect episodes that does no harm, 0 to 1; a quota is like ``"0.2:2-4"``.
     """
     arguments = ["doctor", path_of(data), "--json", "--imperfect-share", str(imperfect_share)]
-    for quota in quotas:
+    for quota in names_of("quotas", quotas):
         arguments += ["--quota", quota]
     code, text, _ = _call(arguments, b"", progress)
     return DoctorResult(code == 0, json.loads(text))
@@ -325,7 +325,7 @@ def evaluate(
     *,
     out: Optional[PathLike] = None,
     kind: Optional[str] = None,
-    splits: Sequence[str] = (),
+    splits: Union[str, Sequence[str]] = (),
     frame: Optional[str] = None,
     origin: Optional[str] = None,
     anchor: Optional[str] = None,
@@ -339,7 +339,7 @@ def evaluate(
     every: Optional[int] = None,
     depth_per_metre: Optional[float] = None,
     max_depth_m: Optional[float] = None,
-    categories: Sequence[int] = (),
+    categories: Union[int, Sequence[int]] = (),
     images: Optional[PathLike] = None,
     sequences: Optional[PathLike] = None,
 ) -> EvaluateResult:
@@ -354,7 +354,7 @@ def evaluate(
     folder = Path(out) if out is not None else Path(default)
     arguments = ["eval", path_of(dataset), *given, "--out", path_of(folder), "--json"]
     arguments += _options(
-        kind=kind, split=splits, frame=frame, anchor=anchor, input=input, history=history, horizon=horizon, stride=stride,
+        kind=kind, split=names_of("splits", splits), frame=frame, anchor=anchor, input=input, history=history, horizon=horizon, stride=stride,
         missing_as_zero=missing_as_zero, resamples=resamples, seed=seed, every=every, depth_per_metre=depth_per_metre,
         max_depth_m=max_depth_m, category=categories, images=images, sequences=sequences, origin=origin,
     )  # fmt: skip
@@ -368,15 +368,15 @@ def export(
     format: str,
     out: PathLike,
     *,
-    splits: Sequence[str] = (),
-    trajectory_ids: Sequence[str] = (),
+    splits: Union[str, Sequence[str]] = (),
+    trajectory_ids: Union[str, Sequence[str]] = (),
     jobs: Optional[int] = None,
     progress: Progress = True,
     **format_options: Option,
 ) -> ExportResult:
     """Write a dataset in another format. ``format_options`` are those of the format, as the reference of formats has them."""
     arguments = ["export", path_of(dataset), "--format", format, "--out", path_of(out), "--json"]
-    arguments += _options(split=splits, trajectory=trajectory_ids, jobs=jobs, **format_options)
+    arguments += _options(split=names_of("splits", splits), trajectory=names_of("trajectory_ids", trajectory_ids), jobs=jobs, **format_options)
     _, text, _ = _call(arguments, b"", progress)
     found = json.loads(text)
     return _known(ExportResult, {**found, "out": Path(found["out"])})

@@ -15,7 +15,7 @@ import numpy as np
 from . import _cosfly
 from ._calls import PathLike
 from ._cosfly import Reader, Table
-from ._errors import InvalidValue, NotFound, OutOfRange, WrongType, options, path_of
+from ._errors import InvalidValue, NotFound, OutOfRange, WrongType, names_of, options, path_of
 from ._show import Frame, Town, Trajectory
 
 CHANNELS = ("rgb", "depth")
@@ -65,7 +65,7 @@ class Dataset:
     The object keeps the ``identity`` of the dataset that was opened. Where the folder is made anew meanwhile, pictures and
     tables that are asked for later raise :class:`cosfly.Error` (``dataset-changed``), in worker processes, too: open it again.
 
-    ``channels`` are ``rgb`` and ``depth`` by default; those that are named must be in the first flight.
+    ``channels`` are ``rgb`` and ``depth`` by default; those that are named must be in the first flight. One name alone needs no list.
     ``split`` is ``train``, ``val``, ``test`` or None for all; ``role`` is ``expert``, ``perturbed`` or None for both;
     ``trajectories`` are ids, or patterns such as ``"expert-*"`` (all flights of the stage ``expert``); ``size`` is (width,
     height); ``jobs`` threads decode the pictures of one call, of :meth:`batch` and of a :class:`Loader`.
@@ -83,15 +83,15 @@ class Dataset:
         split: Optional[str] = None,
         role: Optional[str] = None,
         trajectories: Union[None, str, Sequence[str]] = None,
-        channels: Optional[Sequence[str]] = None,
+        channels: Union[None, str, Sequence[str]] = None,
         size: Optional[Tuple[int, int]] = None,
-        columns: Sequence[str] = (),
+        columns: Union[str, Sequence[str]] = (),
         captions: Optional[str] = None,
         jobs: int = 1,
     ):
         self.path = Path(path_of(path))
         self.split, self.role = split, role
-        self.channels, self.size = CHANNELS if channels is None else tuple(channels), size
+        self.channels, self.size = CHANNELS if channels is None else names_of("channels", channels), size
         self._opened: Tuple[int, Optional[Reader]] = (-1, None)
         self.jobs = _whole("jobs", jobs, 1)
         if split not in (None, "train", "val", "test"):
@@ -111,7 +111,7 @@ class Dataset:
         """Ids of the trajectories of the split, and of ``trajectories``."""
         self._columns: Dict[str, Any] = {}
         self._numbers: Optional[Dict[Tuple[str, int], int]] = None
-        self._index = self._frames_index(columns)
+        self._index = self._frames_index(names_of("columns", columns))
         self._captions = self._read_captions(captions) if captions else {}
         if channels is not None and self._index:
             has = self.channels_of(self._index[0][0])
@@ -136,11 +136,11 @@ class Dataset:
         return self._reader.table(name, self.split)
 
     def frame(
-        self, trajectory_id: str, frame: int, channels: Optional[Sequence[str]] = None,
+        self, trajectory_id: str, frame: int, channels: Union[None, str, Sequence[str]] = None,
         size: Optional[Tuple[int, int]] = None,
     ) -> Frame:  # fmt: skip
         """Images of one frame, by channel: a dictionary that notebooks show."""
-        images = self._images([(trajectory_id, frame)], channels or self.channels, size or self.size)
+        images = self._images([(trajectory_id, frame)], names_of("channels", channels or self.channels), size or self.size)
         return Frame({name: arrays[0] for name, arrays in images.items()})
 
     def trajectory(self, trajectory_id: str) -> Trajectory:
@@ -475,6 +475,9 @@ class Loader:
     def load_state_dict(self, state: Dict[str, Any]) -> None:
         """Go on where ``state_dict()`` was taken; dataset, batch size and number of shards must be the same."""
         mine = self._meaning()
+        absent = [name for name in ("epoch", "batch", "seed") if name not in state]
+        if absent:
+            raise InvalidValue(f"the state has no {' and no '.join(map(repr, absent))}; give what `state_dict()` gave")
         other = [name for name in mine if name in state and state[name] != mine[name]]
         if other:
             told = ", ".join(f"{name} {state[name]!r}, here {mine[name]!r}" for name in other)
@@ -541,7 +544,7 @@ def _matching(trajectories: Union[None, str, Sequence[str]], names: Iterable[str
     known = dict.fromkeys(names)
     if trajectories is None:
         return known
-    given = [trajectories] if isinstance(trajectories, str) else list(trajectories)
+    given = names_of("trajectories", trajectories)
     found = {name for name in given if name in known}
     for pattern in given:
         more = fnmatch.filter(known, pattern) if pattern not in found and any(sign in pattern for sign in "*?[") else []

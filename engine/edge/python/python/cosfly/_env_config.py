@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Mapping, NamedTuple, Sequence
 
 from . import _cosfly
 from ._calls import settings_of
-from ._errors import InvalidValue, WrongType, path_of
+from ._errors import InvalidValue, WrongType, names_of, path_of
 
 if TYPE_CHECKING:
     from typing import TypedDict
@@ -103,8 +103,7 @@ class EnvConfig:
     def __post_init__(self) -> None:
         settings_of(self.set)
         path_of(self.recipe, "the recipe of environments")
-        if isinstance(self.obs, str):
-            object.__setattr__(self, "obs", (self.obs,))
+        object.__setattr__(self, "obs", names_of("obs", self.obs))
         if self.jobs is not None and not 1 <= operator.index(self.jobs) <= 1024:
             raise InvalidValue(f"jobs is {self.jobs}; it is 1 to 1024")
         names = tuple(self.obs)

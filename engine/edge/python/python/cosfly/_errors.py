@@ -7,8 +7,9 @@ import functools
 import inspect
 import os
 import re
+import warnings
 from dataclasses import dataclass
-from typing import Any, Callable, Optional, Sequence, Tuple, TypeVar, cast
+from typing import Any, Callable, Mapping, Optional, Sequence, Tuple, TypeVar, cast
 
 Call = TypeVar("Call", bound=Callable[..., Any])
 
@@ -92,6 +93,40 @@ def path_of(value: Any, what: str = "a path") -> str:
         return os.fspath(value)
     except TypeError:
         raise WrongType(f"{what} is a text or a path, not {value!r:.60} ({type(value).__name__})") from None
+
+
+def names_of(what: str, given: Any) -> Tuple[str, ...]:
+    """The names of a list, or the one name that is given alone."""
+    if isinstance(given, str):
+        return (given,)
+    if isinstance(given, (bytes, Mapping)) or not hasattr(given, "__iter__"):
+        raise WrongType(f"`{what}` is {given!r:.60} ({type(given).__name__}); it is a name or a list of names")
+    names = tuple(given)
+    for name in names:
+        if not isinstance(name, str):
+            raise WrongType(f"`{what}` has {name!r:.60} ({type(name).__name__}) in it; it is a name or a list of names")
+    return names
+
+
+def keys_of(what: str, given: Any, allowed: Sequence[str], strangers: bool = False) -> Mapping[str, Any]:
+    """A dictionary whose keys are all ``allowed``; nothing at all is an empty one. With ``strangers``, keys that are like none of them
+    get a warning instead."""
+    if given is None:
+        return {}
+    if not isinstance(given, Mapping):
+        raise WrongType(f"{what} is {given!r:.60}; it is a dictionary with {_listed(allowed)}")
+    for key in given:
+        if key not in allowed:
+            near = difflib.get_close_matches(str(key), allowed, 1)
+            advice = f"did you mean `{near[0]}`?" if near else f"there is {_listed(allowed)}"
+            if near or not strangers:
+                raise InvalidValue(f"{what} has no key {key!r}; {advice}")
+            warnings.warn(f"{what} has no key {key!r}, which does nothing; {advice}", stacklevel=3)
+    return given
+
+
+def _listed(names: Sequence[str]) -> str:
+    return ", ".join(f"`{name}`" for name in names)
 
 
 def options(**gone: str) -> Callable[[Call], Call]:

@@ -29,7 +29,7 @@ def pack(
     out: PathLike,
     *,
     size: Tuple[int, int] = (224, 126),
-    channels: Sequence[str] = ("rgb", "depth"),
+    channels: Union[str, Sequence[str]] = ("rgb", "depth"),
     split: Optional[str] = None,
     role: Optional[str] = None,
     trajectories: Union[None, str, Sequence[str]] = None,

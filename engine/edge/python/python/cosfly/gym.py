@@ -27,7 +27,7 @@ from gymnasium.vector.utils import batch_space
 from . import _cosfly
 from ._cosfly import VectorEnvironment
 from ._env_config import CHANNELS, OBSERVATIONS, SENSORS, EnvConfig
-from ._errors import InvalidValue
+from ._errors import InvalidValue, keys_of
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -177,7 +177,7 @@ class TrackVector(VectorEnv):
     def reset(
         self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Any, dict[str, Any]]:
-        chosen = self._chosen((options or {}).get("reset_mask"))
+        chosen = self._chosen(keys_of("`options` of many environments", options, ("reset_mask",)).get("reset_mask"))
         seeds: list[int | None]
         if seed is None:
             seeds = [None] * self.num_envs
@@ -269,6 +269,7 @@ class Track(gymnasium.Env):
         self._streams, self._is_reset = _Streams(1), False
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
+        episode = keys_of("`options`", options, ("episode",)).get("episode")
         super().reset(seed=seed)
         # `np_random` that was used before has drawn a seed already.
         known = self._np_random_seed
@@ -276,7 +277,6 @@ class Track(gymnasium.Env):
         begun = self._streams.begin([_seed(seed)], [True], entropy)
         if self._np_random_seed is None:
             self._np_random, self._np_random_seed = seeding.np_random(self._streams.drawn)
-        episode = (options or {}).get("episode")
         if episode is None:
             self._flock.reset(begun, [True])
         else:

@@ -10,6 +10,8 @@ import os
 from pathlib import Path
 from typing import Any, Mapping
 
+from ._errors import InvalidValue, keys_of
+
 KEY = "cosfly"
 """Key of the description in the file's metadata (``metadata_props``)."""
 
@@ -33,6 +35,12 @@ ACTIONS = {
 }
 """Kinds of actions, with their units."""
 
+LOOKS = ("simple", "full")
+"""Looks of colours."""
+
+FED = ("observation", "unit", "history")
+"""Keys of an input that is more than the name of an observation."""
+
 _METADATA = 14  # the field `metadata_props` of a `ModelProto`
 
 
@@ -54,8 +62,10 @@ def describe(
     value in the next call. The network is asked again after ``every`` steps. ``look`` is that of colours: ``simple`` or ``full``.
     """
     if actions not in ACTIONS:
-        raise ValueError(f"actions={actions!r}; allowed are {', '.join(ACTIONS)}")
-    fed = {name: _fed(value) for name, value in inputs.items()}
+        raise InvalidValue(f"actions={actions!r}; allowed are {', '.join(ACTIONS)}")
+    if look not in LOOKS:
+        raise InvalidValue(f"look={look!r}; allowed are {', '.join(LOOKS)}")
+    fed = {name: _fed(name, value) for name, value in inputs.items()}
     described = {
         "version": 1,
         "inputs": fed,
@@ -72,8 +82,8 @@ def describe(
     whole.replace(file)
 
 
-def _fed(value: str | Mapping[str, Any]) -> dict[str, Any]:
-    fed = {"observation": value} if isinstance(value, str) else dict(value)
+def _fed(name: str, value: str | Mapping[str, Any]) -> dict[str, Any]:
+    fed = {"observation": value} if isinstance(value, str) else dict(keys_of(f"input {name!r}", value, FED))
     fed.setdefault("unit", UNITS.get(fed.get("observation", ""), UNITS["state"]))
     return fed
 
@@ -115,7 +125,7 @@ def _fields(data: bytes) -> list[tuple[int, bytes, str | None]]:
                 key = inside[first : first + size].decode("utf-8", "replace")
             fields.append((tag >> 3, data[start:at], key))
     except IndexError:
-        raise ValueError("the file is not in ONNX, or it is cut off") from None
+        raise InvalidValue("the file is not in ONNX, or it is cut off") from None
     return fields
 
 

@@ -15,7 +15,7 @@ from vla_eval.benchmarks.base import StepBenchmark, StepResult
 from vla_eval.specs import DimSpec
 
 from ._env_config import CHANNELS, SENSORS, EnvConfig
-from ._errors import InvalidValue
+from ._errors import InvalidValue, names_of
 from ._outcome import Outcome
 from .gym import Track
 
@@ -42,12 +42,12 @@ class TrackBenchmark(StepBenchmark):
         recipe: str | os.PathLike[str],
         *,
         prompt: str = PROMPT,
-        pictures: Sequence[str] = (),
-        sensors: Sequence[str] = (),
+        pictures: str | Sequence[str] = (),
+        sensors: str | Sequence[str] = (),
         **options: Unpack[EnvOptions],
     ) -> None:
         super().__init__()
-        self._pictures, self._sensors = tuple(pictures), tuple(sensors)
+        self._pictures, self._sensors = names_of("pictures", pictures), names_of("sensors", sensors)
         unknown = [name for name in self._pictures if name not in CHANNELS] + [name for name in self._sensors if name not in SENSORS]
         if unknown:
             raise InvalidValue(f"pictures and sensors name {unknown}; pictures are {', '.join(CHANNELS)}, sensors are {', '.join(SENSORS)}")
