@@ -1,6 +1,6 @@
 //! Choice of the frames of a flight.
 
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, counted};
 use std::collections::BTreeSet;
 use std::str::FromStr;
 
@@ -54,9 +54,8 @@ impl FrameList {
     pub fn of(&self, name: &str, frames: usize) -> Result<Vec<usize>> {
         let mut chosen = BTreeSet::new();
         for part in &self.0 {
-            let last = part.first + (part.end - 1 - part.first) / part.step * part.step;
-            if last >= frames {
-                let message = format!("`{name}` has no frame {last}: it has {frames} frames, from 0");
+            if let Some(missing) = (part.first..part.end).step_by(part.step).find(|frame| *frame >= frames) {
+                let message = format!("`{name}` has no frame {missing}: it has {}, from 0", counted(frames, "frame"));
                 return Err(Diagnostic::new("preview-frame", Fault::Recipe, message)
                     .hint(format!("frames go from 0 to {}; all of them are `0..{frames}`", frames.saturating_sub(1))));
             }
@@ -100,6 +99,9 @@ mod tests {
         }
         let error = "5,201".parse::<FrameList>().unwrap().of("expert-p00000", 201).unwrap_err();
         assert!(error.message.contains("`expert-p00000` has no frame 201") && error.hints[0].contains("0 to 200"));
+        let first = |text: &str| text.parse::<FrameList>().unwrap().of("a", 24).unwrap_err().message;
+        assert_eq!(first("0..99"), "`a` has no frame 24: it has 24 frames, from 0");
+        assert_eq!(first("3..99:10"), "`a` has no frame 33: it has 24 frames, from 0");
         assert!("0..4000000000".parse::<FrameList>().unwrap().of("a", 9).is_err());
     }
 
