@@ -259,7 +259,7 @@ fn a_leaderboard_needs_a_folder_and_suites() {
         assert_eq!(printed.code, Some(code), "{arguments:?}: {}", printed.stderr);
         assert!(printed.stderr.contains(words), "{arguments:?}: {}", printed.stderr);
     };
-    refused(4, &["nowhere", "--suite", "recipe.toml"], "`nowhere` is no folder");
+    refused(4, &["nowhere", "--suite", "recipe.toml"], "`nowhere` does not exist");
     refused(3, &["."], "there is no folder `recipes/benchmarks` here");
 }
 

@@ -6,10 +6,12 @@
 //! * [`visible_text`]: foreign text, made harmless for a terminal.
 //! * [`counted`]: a number of things, `1 frame` or `2 frames`.
 //! * [`nearest_name`]: the known name most similar to a mistyped one.
+//! * [`absent`]: why a path leads to nothing.
 //! * [`contained`]: work of a library that may panic on damaged bytes.
 //! * [`plausible`]: the rule for numbers from outside.
 //! * [`Stop`]: the flag by which the user ends long work.
 
+mod absent;
 mod contained;
 mod diagnostic;
 mod excerpt;
@@ -20,6 +22,7 @@ mod print;
 mod stop;
 mod visible;
 
+pub use absent::absent;
 pub use contained::contained;
 pub use diagnostic::{Diagnostic, Fault, Label, Result};
 pub use nearest::nearest_name;

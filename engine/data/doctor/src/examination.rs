@@ -4,7 +4,7 @@ use crate::checks::Trace;
 use crate::sources::{lerobot, ours, v7};
 use crate::texts::{GivenTexts, Judged, TextFigures, TextTally};
 use crate::{ExaminedEpisode, Flag, Severity, checks, shortcuts};
-use cosfly_diagnose::{Diagnostic, Fault, Result, Stop};
+use cosfly_diagnose::{Diagnostic, Fault, Result, Stop, absent};
 use cosfly_metrics::shortcuts::ShortcutFigures;
 use cosfly_read::{Identity, PublishedDataset};
 use serde::Serialize;
@@ -205,10 +205,10 @@ impl<'a> Tally<'a> {
         let mut gaps = vec![
             (stated.split, "leaks between splits: no splits are stated"),
             (stated.limits, "limits of motion: none are stated"),
-            (stated.captions, "instructions: none can be parsed"),
         ];
         if layout != Layout::Lerobot {
             gaps.extend([
+                (stated.captions, "instructions: none are stated"),
                 (
                     stated.camera,
                     "projection of the target: no camera with a straight lens whose rows see at one time is stated",
@@ -258,7 +258,7 @@ fn unknown(folder: &Path) -> Box<Diagnostic> {
     let message = if folder.is_dir() {
         format!("`{}` holds no data of a known layout", folder.display())
     } else {
-        format!("`{}` is not a folder", folder.display())
+        format!("`{}` {}", folder.display(), absent(folder).unwrap_or_else(|| "is not a folder".to_owned()))
     };
     Diagnostic::new("doctor-layout", Fault::Input, message)
         .hint("give the folder of a dataset of cosfly (with `data/trajectories`), one with `<Town>/trajectory_<id>/<trace>/trajectory.json`, or one of LeRobot (with `meta/info.json`)")

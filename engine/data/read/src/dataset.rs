@@ -6,7 +6,7 @@ use super::inner_path::inner_path;
 use super::log::LogReader;
 use super::rows::read;
 use super::trajectory::{PublishedFlight, Shared};
-use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
+use cosfly_diagnose::{Diagnostic, Fault, Result, absent, nearest_name};
 use cosfly_schema::Split;
 use cosfly_schema::tables::Rejected;
 use std::collections::BTreeMap;
@@ -198,10 +198,10 @@ fn no_dataset(folder: &Path, rejections: &BTreeMap<String, String>) -> Box<Diagn
         let refusal = rejections.iter().take(3).map(reason).fold(refusal, Diagnostic::because);
         return refusal.hint("change the recipe, and run it again; table `rejected` has all reasons");
     }
-    let message = match (folder.exists(), is_file) {
-        (false, _) => format!("`{shown}` does not exist"),
-        (true, true) => format!("`{shown}` is a file, not the folder of a dataset"),
-        (true, false) => format!("`{shown}` is not a published dataset: it has no table `trajectories`"),
+    let message = match (absent(folder), is_file) {
+        (Some(why), _) => format!("`{shown}` {why}"),
+        (None, true) => format!("`{shown}` is a file, not the folder of a dataset"),
+        (None, false) => format!("`{shown}` is not a published dataset: it has no table `trajectories`"),
     };
     let refusal = Diagnostic::new("dataset-none", Fault::Input, message);
     match folder.extension().and_then(|extension| extension.to_str()) {

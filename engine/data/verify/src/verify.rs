@@ -7,7 +7,7 @@ use crate::report::VerifyReport;
 use crate::resume::ResumeFile;
 use crate::tables::SmallTables;
 use crate::{clouds, croissant, extras, files, mesh, sensed, splits, tables, waypoints, windows};
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, absent};
 use std::path::Path;
 use std::sync::mpsc;
 
@@ -88,14 +88,14 @@ fn check_flights(
 }
 
 /// Why nothing in `folder` can be checked, if so. One part of a dataset is enough: missing others are findings.
-fn folder_problem(folder: &Path) -> Option<&'static str> {
-    match std::fs::metadata(folder) {
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Some("does not exist"),
-        Ok(found) if !found.is_dir() => Some("is not a folder"),
-        _ => {
-            let has = |name: &&str| std::fs::symlink_metadata(folder.join(name)).is_ok();
-            let is_dataset = ["files.parquet", "croissant.json", "SHA256SUMS"].iter().any(has);
-            (!is_dataset).then_some("is not a finished dataset: it has no `files.parquet`")
+fn folder_problem(folder: &Path) -> Option<String> {
+    let has = |name: &&str| std::fs::symlink_metadata(folder.join(name)).is_ok();
+    absent(folder).or_else(|| {
+        let is_dataset = ["files.parquet", "croissant.json", "SHA256SUMS"].iter().any(has);
+        match (folder.is_dir(), is_dataset) {
+            (false, _) => Some("is not a folder".to_owned()),
+            (true, false) => Some("is not a finished dataset: it has no `files.parquet`".to_owned()),
+            (true, true) => None,
         }
-    }
+    })
 }

@@ -9,7 +9,7 @@ use crate::pilot::{OnnxPolicy, wrong_number};
 use crate::results::{Card, Folder};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use cosfly_diagnose::{Diagnostic, Fault, Result, counted};
+use cosfly_diagnose::{Diagnostic, Fault, Result, absent, counted};
 use cosfly_env::Action;
 use cosfly_fingerprint::Digest;
 use serde::{Deserialize, Serialize};
@@ -203,11 +203,9 @@ impl Bundle {
     /// `fly-bundle` for any other file, with the line; errors of the file system.
     pub fn read(path: &Path) -> Result<Self> {
         let shown = path.display();
-        if path.is_dir() || !path.exists() {
-            let (what, hint) = match path.is_dir() {
-                true => ("is a folder", format!("`cosfly fly bundle {shown}` makes the file of a result")),
-                false => ("does not exist", "give the file that `cosfly fly bundle` made".to_owned()),
-            };
+        let absent = absent(path).map(|why| (why, "give the file that `cosfly fly bundle` made".to_owned()));
+        let a_folder = || ("is a folder".to_owned(), format!("`cosfly fly bundle {shown}` makes the file of a result"));
+        if let Some((what, hint)) = absent.or_else(|| path.is_dir().then(a_folder)) {
             return Err(Diagnostic::new("fly-bundle", Fault::Input, format!("`{shown}` {what}")).hint(hint));
         }
         let bytes = std::fs::read(path).map_err(|error| Diagnostic::unread(format!("`{shown}`"), &error))?;
@@ -269,7 +267,7 @@ impl Bundle {
             episodes.push(episode);
         }
         if episodes.len() as u64 != card.suite.episodes {
-            return Err(format!("it has {} of {} episodes", episodes.len(), card.suite.episodes));
+            return Err(format!("it has {} of {}", episodes.len(), counted(card.suite.episodes, "episode")));
         }
         Ok(Self { card, episodes, policy })
     }

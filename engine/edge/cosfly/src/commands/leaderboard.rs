@@ -6,7 +6,7 @@ use crate::console::Console;
 use crate::exit;
 use crate::subject::Subject;
 use clap::Parser;
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, absent};
 use cosfly_fingerprint::Digest;
 use cosfly_fly::board::{Bench, Offer, json, judge, page, told};
 use cosfly_runner::RunOptions;
@@ -58,7 +58,8 @@ pub struct Arguments {
 impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
         if !self.folder.is_dir() {
-            let message = format!("`{}` is no folder", self.folder.display());
+            let why = absent(&self.folder).unwrap_or_else(|| "is no folder".to_owned());
+            let message = format!("`{}` {why}", self.folder.display());
             let refusal = Diagnostic::new("fly-board", Fault::Input, message);
             return Err(refusal.hint("give a folder with files that `cosfly fly bundle` made").into());
         }
