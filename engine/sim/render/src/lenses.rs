@@ -25,17 +25,9 @@ impl RenderConfig {
         }
         let widest_deg = self.fov_range_deg.map_or(self.fov_deg, |range| range[1]);
         let widest = self.camera_of(widest_deg);
-        let is_shown = match model {
-            LensModel::Brown => self.lens.widening(&widest).is_some_and(|widening| widening <= 3.0),
-            LensModel::Fisheye | LensModel::Equirectangular => self.lens.ray(&widest, (0.0, 0.0)).is_some(),
-        };
-        if !is_shown {
-            let message = format!(
-                "the lens (`{}`, k {k1}, {k2}, {k3}, {k4}) has no picture in the corners of a field of view of {widest_deg} degrees, \
-                 or needs one more than three times as wide",
-                model.name()
-            );
-            return problem("lens", message, "take coefficients nearer to 0 or a smaller field of view");
+        if !self.shows_corners(widest_deg) {
+            let (message, hint) = self.empty_corners(widest_deg);
+            return problem("lens", message, &hint);
         }
         if self.lens.is_none() {
             return Ok(());
@@ -62,6 +54,41 @@ impl RenderConfig {
             );
         }
         Ok(())
+    }
+
+    /// Whether the corners of pictures with this `fov_deg` show something.
+    fn shows_corners(&self, fov_deg: f64) -> bool {
+        let camera = self.camera_of(fov_deg);
+        match self.lens.model {
+            LensModel::Brown => self.lens.widening(&camera).is_some_and(|widening| widening <= 3.0),
+            LensModel::Fisheye | LensModel::Equirectangular => self.lens.ray(&camera, (0.0, 0.0)).is_some(),
+        }
+    }
+
+    /// Message and advice where the corners of pictures with this `fov_deg` show nothing.
+    fn empty_corners(&self, fov_deg: f64) -> (String, String) {
+        let Lens { model, k1, k2, k3, k4 } = self.lens;
+        let (name, is_range) = (model.name(), self.fov_range_deg.is_some());
+        let most = (1..fov_deg as u32).rev().find(|it| self.shows_corners(f64::from(*it)));
+        let smaller = most.map(|most| match is_range {
+            true => format!("let `fov_range_deg` end at {most} or less"),
+            false => format!("take a `fov_deg` of {most} or less"),
+        });
+        let nearer = ([k1, k2, k3, k4] != [0.0; 4]).then(|| "take coefficients nearer to 0".to_owned());
+        let ways: Vec<String> = smaller.into_iter().chain(nearer).collect();
+        let mut message = format!(
+            "the lens (`{name}`, k {k1}, {k2}, {k3}, {k4}) has no picture in the corners of {} x {} pixels at {fov_deg} degrees",
+            self.width, self.height
+        );
+        let mut hint = ways.join(", or ");
+        match model {
+            LensModel::Brown => message += ", or needs one more than three times as wide",
+            _ => {
+                hint += "; the degrees state the focal length, width / 2 / tan(degrees / 2), and a fisheye sees less than 180 \
+                         degrees off its axis";
+            }
+        }
+        (message, hint)
     }
 
     /// Checks what an equirectangular picture has of its own.
@@ -112,6 +139,30 @@ mod tests {
         ] {
             let found = config.validate().expect_err(path);
             assert_eq!(found.path, path, "{found}");
+        }
+    }
+
+    #[test]
+    fn advice_on_empty_corners_can_be_followed() {
+        let of = |fov_deg: f64, lens: Lens| RenderConfig {
+            fov_deg,
+            width: 300,
+            height: 300,
+            lens,
+            ..RenderConfig::default()
+        };
+        let brown = Lens { k1: -0.3, ..Lens::default() };
+        let range = RenderConfig { fov_range_deg: Some([60.0, 150.0]), ..of(60.0, Lens::fisheye([0.0; 4])) };
+        assert!(range.validate().expect_err("nothing in the corners").hint.starts_with("let `fov_range_deg` end at "));
+        for (lens, bent) in
+            [(Lens::fisheye([0.0; 4]), false), (Lens::fisheye([-0.2, 0.0, 0.0, 0.0]), true), (brown, true)]
+        {
+            let found = of(150.0, lens).validate().expect_err("nothing in the corners");
+            let words = found.hint.split("`fov_deg` of ").nth(1).expect("a field of view");
+            let most: f64 = words.split(' ').next().and_then(|it| it.parse().ok()).expect("degrees");
+            of(most, lens).validate().expect("the advice");
+            of(most + 1.0, lens).validate().expect_err("the most");
+            assert_eq!(found.hint.contains("coefficients"), bent, "{}", found.hint);
         }
     }
 }
