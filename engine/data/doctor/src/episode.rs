@@ -28,6 +28,8 @@ pub struct ExaminedEpisode {
     pub camera: Option<Camera>,
     /// Whether depth is the distance along the ray of a pixel, as of pictures all around, and not along the optical axis.
     pub depth_is_along_rays: bool,
+    /// Whether the place of the camera on the drone is unknown, so that cameras of moments are poses of the drone.
+    pub is_mount_unknown: bool,
     /// Height of the target's body, metres.
     pub target_height_m: f64,
     /// Whether the target is of the kind `runner`.
@@ -106,11 +108,15 @@ pub struct ExaminedLook {
 pub const OFFSETS: [i64; 5] = [0, -1, 1, -2, 2];
 
 impl ExaminedEpisode {
-    /// Depth of the target's middle in a frame, as its images have depth.
+    /// Depth of the target's middle in a frame, as its images have depth; its distance where the camera's axis is unknown.
     pub fn depth_of_target(&self, frame: usize) -> Option<f64> {
         let moment = self.moments.get(frame)?;
         let seen = moment.camera.body_from_world_point(moment.target_in_world?);
-        if self.depth_is_along_rays { Some(seen.length()) } else { (seen.x > 0.0).then_some(seen.x) }
+        if self.depth_is_along_rays || self.is_mount_unknown {
+            Some(seen.length())
+        } else {
+            (seen.x > 0.0).then_some(seen.x)
+        }
     }
 
     /// Lengths, in seconds, of the stretches with less than half of the target visible.

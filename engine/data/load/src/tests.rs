@@ -123,6 +123,37 @@ fn depth_of_an_export_for_lerobot_is_that_of_the_dataset_up_to_its_greatest() {
 }
 
 #[test]
+fn the_doctor_reads_depth_of_an_export_for_lerobot() {
+    let found = |per_metre: f32, with_depth: bool| {
+        let home = tempfile::tempdir().unwrap();
+        let [dataset, out] = ["sample", "lerobot"].map(|name| home.path().join(name));
+        let mut flights = sample::flights();
+        let images = flights.iter_mut().flat_map(|flight| &mut flight.images);
+        images.flat_map(|images| &mut images.depth_m).for_each(|depth| *depth *= per_metre);
+        sample::write_flights(&dataset, &DatasetConfig::default(), EncodingConfig::default(), flights).unwrap();
+        let options = [("depth".to_owned(), true.into()), ("max_depth_m".to_owned(), 10_000.into())];
+        let options = Map::from_iter(options.into_iter().filter(|_| with_depth));
+        let format = cosfly_export::prepare("lerobot", options).unwrap();
+        format.write(&PublishedDataset::open(&dataset).unwrap(), &Default::default(), &out, &|_, _| {}).unwrap();
+        let splits = std::fs::read_dir(&out).unwrap().map(|it| it.unwrap().path()).filter(|it| it.is_dir());
+        let (mut names, mut notes) = (vec![], String::new());
+        for split in splits {
+            let found = cosfly_doctor::examine(&split, &[], &mut |_, _| {}).unwrap();
+            names.extend(found.flags.iter().map(|flag| flag.name));
+            notes += &found.unchecked.join("; ");
+        }
+        names.dedup();
+        (names, notes)
+    };
+    let (names, notes) = found(1.0, true);
+    assert!(names.is_empty() && notes.contains("depth: its files, unit and frames are checked"), "{names:?} {notes}");
+    assert!(!notes.contains("can be parsed"), "{notes}");
+    assert_eq!(found(100.0, true).0, ["depth-unit"]);
+    let (names, notes) = found(100.0, false);
+    assert!(names.is_empty() && notes.contains("no feature is marked"), "{names:?} {notes}");
+}
+
+#[test]
 fn what_a_layout_does_not_hold_is_refused_with_what_it_holds() {
     let (_home, [ours, v7, lerobot]) = published();
     let refused = |folder: &Path, name: &str| {

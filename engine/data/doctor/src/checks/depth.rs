@@ -61,7 +61,9 @@ pub fn check(episode: &ExaminedEpisode) -> Vec<Flag> {
                 ),
             )
         }
-        _ if is_off => flag("depth-mismatch", format!("depth at the target is {ratio:.3} times its distance")),
+        _ if is_off && !episode.is_mount_unknown => {
+            flag("depth-mismatch", format!("depth at the target is {ratio:.3} times its distance"))
+        }
         _ => vec![],
     }
 }

@@ -5,9 +5,11 @@
 //! * [`listed`]: the rows of `meta/episodes`.
 //! * [`frames`]: the tables of frames.
 //! * [`actions`]: meaning of their actions, found by trials.
+//! * [`depth`]: depth at the target, where a feature is depth in metres.
 //! * [`video`]: video files, undecoded.
 
 pub mod actions;
+mod depth;
 pub mod features;
 mod frames;
 mod info;
@@ -75,7 +77,7 @@ fn read(folder: &Path, with_pictures: bool, progress: &mut dyn FnMut(u64, u64)) 
             continue;
         }
         match foreign_rows(path, with_pictures) {
-            Ok(rows) if is_data => frames.append(rows),
+            Ok(rows) if is_data => frames.append(path, rows),
             Ok(rows) => listed.append(&rows),
             Err(refusal) if refusal.fault == Fault::Machine => return Err(refusal),
             Err(refusal) => {
@@ -91,6 +93,10 @@ fn read(folder: &Path, with_pictures: bool, progress: &mut dyn FnMut(u64, u64)) 
     }
     if with_pictures {
         listed.check_videos(folder, &info, &features, &mut flags);
+    }
+    if let Some(feature) = features.depth.as_deref().filter(|_| with_pictures) {
+        let has_places = features.position.is_some() && features.target.is_some();
+        depth::look((folder, feature), &frames, has_places, &mut recordings, &mut flags);
     }
     notes.extend(gaps(&features));
     actions::interpret(&mut recordings, &features, &mut notes);
@@ -129,6 +135,18 @@ fn gaps(features: &Features) -> Vec<String> {
     } else if features.pictures.is_empty() {
         notes.push("pictures: there are none".to_owned());
     }
-    notes.push("depth, clearance and the share that is visible: LeRobot has no features for them".to_owned());
+    let has_places = features.position.is_some() && features.target.is_some() && features.edges.is_some();
+    notes.push(match (&features.depth, features.other_depth.first()) {
+        (Some(_), _) if has_places => {
+            "depth: its files, unit and frames are checked; its values are not, since no feature is the place of the camera"
+                .to_owned()
+        }
+        (Some(_), _) => "depth: its files are checked; its unit needs features of the drone's place, the target's and its box"
+            .to_owned(),
+        (None, Some(name)) => format!("depth: `{name}` is not said to be pictures in metres, so it is not read"),
+        (None, None) => "depth: no feature is marked as it (`is_depth_map`)".to_owned(),
+    });
+    notes.push("clearance and the share that is visible: LeRobot has no features for them".to_owned());
+    notes.push("instructions: tasks are not compared with the flights".to_owned());
     notes
 }

@@ -64,6 +64,8 @@ pub struct Features {
     pub pictures: Vec<String>,
     /// Pictures of depth in metres, inside of tables.
     pub depth: Option<String>,
+    /// Pictures of depth in other units, or in videos.
+    pub other_depth: Vec<String>,
     /// Pictures in video files.
     pub videos: Vec<String>,
 }
@@ -78,10 +80,10 @@ impl Features {
         let mut found = Self::default();
         for (name, feature) in features.as_object().into_iter().flatten() {
             match feature["dtype"].as_str() {
-                Some("image") if feature["info"]["is_depth_map"] == true => {
-                    let is_in_metres = feature["info"]["depth_unit"] == "m";
-                    found.depth = found.depth.or_else(|| is_in_metres.then(|| name.clone()));
+                Some("image") if found.depth.is_none() && is_depth(feature) && feature["info"]["depth_unit"] == "m" => {
+                    found.depth = Some(name.clone());
                 }
+                Some("image") if is_depth(feature) => found.other_depth.push(name.clone()),
                 Some("image") => found.pictures.push(name.clone()),
                 Some("video") => found.videos.push(name.clone()),
                 _ => found.vector(name, feature),
@@ -119,6 +121,11 @@ impl Features {
             }
         }
     }
+}
+
+/// Whether a feature is marked as depth.
+fn is_depth(feature: &Value) -> bool {
+    feature["info"]["is_depth_map"] == true
 }
 
 fn parts<const N: usize>(feature: &str, roles: &[Option<Role>], of: fn(usize) -> Role) -> Option<Parts<N>> {

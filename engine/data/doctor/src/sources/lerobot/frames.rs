@@ -11,6 +11,7 @@ use cosfly_frames::{DVec3, Pose};
 use cosfly_read::ForeignRows;
 use serde_json::Value;
 use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 /// Largest angle in radians; larger values are degrees.
 const MOST_RADIANS: f64 = 6.4;
@@ -20,13 +21,16 @@ const MOST_RADIANS: f64 = 6.4;
 pub struct Frames {
     numbers: BTreeMap<String, Vec<Vec<f64>>>,
     pictures: BTreeMap<String, Vec<String>>,
+    /// Files, each with the number of its first row.
+    pub tables: Vec<(usize, PathBuf)>,
     /// Number of rows.
     pub rows: usize,
 }
 
 impl Frames {
-    /// Adds the rows of a table.
-    pub fn append(&mut self, rows: ForeignRows) {
+    /// Adds the rows of the table at `path`.
+    pub fn append(&mut self, path: &Path, rows: ForeignRows) {
+        self.tables.push((self.rows, path.to_owned()));
         for (name, values) in rows.numbers {
             let column = self.numbers.entry(name).or_default();
             column.resize(self.rows, vec![]);
@@ -49,7 +53,7 @@ impl Frames {
     }
 
     /// Rows of each episode, by its number.
-    fn of_episodes(&self) -> BTreeMap<i64, Vec<usize>> {
+    pub fn of_episodes(&self) -> BTreeMap<i64, Vec<usize>> {
         let mut episodes: BTreeMap<i64, Vec<usize>> = BTreeMap::new();
         for row in 0..self.rows {
             let number = self.number("episode_index", row).unwrap_or(0.0) as i64;
@@ -128,6 +132,7 @@ impl Frames {
                 split: split(info, number),
                 group: id.clone(),
                 is_perturbed: listed.experts.contains_key(&number),
+                is_mount_unknown: true,
                 target_height_m: 0.0,
                 dt_s: 1.0 / fps,
                 looks: looks.collect(),
