@@ -169,11 +169,11 @@ for path in sorted(Path(\".\").glob(\"*/*/*/*/las/*.las\")):
 ```
 
 Files are LAS 1.4, point format 6, in steps of 0.1 mm. `intensity` is 65535 times that of the dataset, `classification` CARLA's label, which is not
-a class of the ASPRS. `gps_time` is the time of the shot in seconds since the first frame. `instance` (32 bits) and `ring` (16 bits) are extra bytes.
+a class of the ASPRS. `gps_time` is the time of the shot in seconds since the flight began. `instance` (32 bits) and `ring` (16 bits) are extra bytes.
 ";
 
 const BODY: &str = "
 Axes are right-handed: x ahead, y left, z up, those of the lidar at the time of the point's shot. A line of `poses.txt` is a matrix of 3 rows and
 4 columns: from the axes at the sweep's beginning to the frame `map`, whose y is minus that of the dataset's world. `times.txt` has the
-beginnings in seconds since the first frame.
+beginnings in seconds since the flight began.
 ";

@@ -150,6 +150,9 @@ fn check_point(point: &Value, index: usize, before: Option<&Value>, next: Option
     }
     let time = |point: &Value| point["timing"]["trace_timestamp"].as_f64();
     let time_s = time(point).ok_or("`trace_timestamp` is not a number")?;
+    if before.is_none() && time_s != 0.0 {
+        return Err("`trace_timestamp` does not begin at 0".into());
+    }
     if before.and_then(time).is_some_and(|before_s| before_s >= time_s) {
         return Err("`trace_timestamp` does not increase".into());
     }
@@ -211,7 +214,7 @@ mod tests {
     #[test]
     fn every_breach_of_a_rule_is_named() {
         assert_eq!(check_document(&document(), "ORI"), Vec::<String>::new());
-        let breaches: [(&str, Value, &str); 12] = [
+        let breaches: [(&str, Value, &str); 13] = [
             ("/schema_version", json!("7.0.1"), "schema_version"),
             ("/trace_dir", json!("aug_001"), "trace_dir"),
             ("/points", json!([]), "empty"),
@@ -220,6 +223,7 @@ mod tests {
             ("/camera/intrinsic", json!([[1, 0], [0, 1]]), "3 x 3"),
             ("/points/1/index", json!(7), "index"),
             ("/points/1/timing/trace_timestamp", json!(0.0), "increase"),
+            ("/points/0/timing/trace_timestamp", json!(0.25), "begin at 0"),
             ("/points/1/drone_pose/yaw", Value::Null, "yaw"),
             ("/points/0/nav_waypoint/t1_world/x", json!(1.001), "next pose"),
             ("/points/2/nav_waypoint/t1_world", json!({"x": 0, "y": 0, "z": 0}), "not null"),
