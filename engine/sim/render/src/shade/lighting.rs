@@ -39,16 +39,38 @@ pub struct Mirror {
     /// Brightness of the sky in it, in brightnesses of the sky that is drawn, and how much clouds differ from it.
     sky: f32,
     clouds: f32,
+    /// Light of the ground in it, in light that the ground throws back; 0 where what is below the horizon is houses.
+    ground: f32,
+    /// Cosine below which it does not graze: no more than bent sheet within a pixel does.
+    flattest: f32,
 }
 
 impl Mirror {
     /// A film of water: it mirrors more along it than from above.
-    pub const FILM: Self = Self { from_above: 0.26, along: 2.0, image: 1.6, sharp: 0.0, sky: 1.0, clouds: 0.0 };
+    pub const FILM: Self = Self {
+        from_above: 0.26,
+        along: 2.0,
+        image: 1.6,
+        sharp: 0.0,
+        sky: 1.0,
+        clouds: 0.0,
+        ground: 0.0,
+        flattest: 0.0,
+    };
     /// Panes and paint of houses and things.
-    pub const PANE: Self = Self { from_above: 0.30, along: 0.9, image: 1.6, sharp: 0.0, sky: 1.0, clouds: 0.0 };
+    pub const PANE: Self = Self { from_above: 0.30, along: 0.9, ..Self::FILM };
     /// The smooth coat over the paint of vehicles, and their glass: as much as its optics say. The sky sends more light than its
-    /// picture shows, and a coat mirrors what it sends.
-    pub const COAT: Self = Self { from_above: 0.0, along: 1.0, image: 24.0, sharp: 1.0, sky: 2.4, clouds: 1.0 };
+    /// picture shows, and a coat mirrors what it sends. Seen from above and along, sides mirror the road beyond.
+    pub const COAT: Self = Self {
+        from_above: 0.0,
+        along: 1.0,
+        image: 24.0,
+        sharp: 1.0,
+        sky: 2.4,
+        clouds: 1.0,
+        ground: 0.65,
+        flattest: 0.12,
+    };
 }
 
 simd_kernel! {
@@ -100,7 +122,12 @@ simd_kernel! {
         noise: &NoiseTexture,
     ) {
         let (light, tables, frame) = (*light, grid.0, *grid.1);
-        let Mirror { from_above, along, image, sharp, sky, clouds } = mirror;
+        let Mirror { from_above, along, image, sharp, sky, clouds, ground, flattest } = mirror;
+        // An overcast sky is three times as bright overhead as at the horizon (CIE 110); the drawn one is even.
+        let veil = clouds * smoothstep(0.05, 0.95, light.clouds);
+        let mirrors_ground = ground > 0.0;
+        // Roads and pavements send back a seventh of the light that they get.
+        let (ground, lit_by_lamps) = (light.bounce * ground, light.lamp * 0.14);
         // Most differs a sky of which a half is blue.
         let uneven = clouds * most(4.0 * light.clouds * (1.0 - light.clouds), 0.3);
         for shared in shared.iter_mut() {
@@ -108,7 +135,7 @@ simd_kernel! {
                 let (ray, normal) = (get(&shared.ray, k), get(&shared.normal, k));
                 let view = ray * (1.0 / ray.dot(ray).sqrt());
                 let cosine = share(-view.dot(normal));
-                let grazing = 1.0 - cosine;
+                let grazing = 1.0 - most(cosine, flattest);
                 let grazing2 = grazing * grazing;
                 let fresnel = 0.05 + 0.95 * grazing2 * grazing2 * grazing;
                 let out = view + normal * (2.0 * cosine);
@@ -133,7 +160,15 @@ simd_kernel! {
                 } else {
                     1.0
                 };
-                set(&mut shared.mirrored, k, light.sky(out) * (open * sky * cloud) + near);
+                let overhead = 1.0 + veil * (0.86 * most(out.z, 0.0) - 0.57);
+                let far = light.sky(out) * (open * sky * cloud * overhead) + near;
+                let seen = if mirrors_ground {
+                    let below = share(0.5 - 0.5 * height_m);
+                    far.lerp(ground * (0.45 + 0.55 * shared.sky[k]) + lit_by_lamps * shared.lamps[k], below)
+                } else {
+                    far
+                };
+                set(&mut shared.mirrored, k, seen);
                 // The sun's own image, from facets that lean halfway to it: wide on rough water, and long where the view is flat.
                 let halfway = light.to_sun - view;
                 let lean = most(halfway.dot(normal), 0.0);
@@ -306,5 +341,44 @@ simd_kernel! {
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cosfly_frames::simd::Level;
+    use cosfly_materials::grid::LightGrid;
+    use cosfly_materials::pattern::noise_texture;
+
+    /// What a coat 1 m above open ground mirrors, by its normal and the ray that meets it: its light and share.
+    fn coat(light: &Light, normal: Vec3, ray: Vec3) -> (Vec3, f32) {
+        let (grid, noise) = (LightGrid::new(&[], &[]), noise_texture(1));
+        let mut shared = Shared::EMPTY;
+        set(&mut shared.normal, 0, normal);
+        set(&mut shared.ray, 0, ray);
+        set(&mut shared.middle, 0, Vec3::new(0.0, 0.0, 1.0));
+        shared.sky[0] = 1.0;
+        let mut shared = [shared];
+        mirrored(Level::best(), &mut shared, light, Mirror::COAT, (grid.tables(), &grid.frame()), &noise);
+        (get(&shared[0].mirrored, 0), shared[0].fresnel[0])
+    }
+
+    #[test]
+    fn sides_seen_along_mirror_the_road_and_a_veiled_sky_is_bright_overhead() {
+        for weather in ["ClearNoon", "CloudyNoon", "HardRainNoon", "ClearSunset"] {
+            let light = Light::new(&cosfly_materials::presets::preset(weather).expect("a preset"));
+            let road = (light.sun * light.to_sun.z + light.dome).y * 0.14;
+            for aside in [0.0, 0.02, 0.2] {
+                let (seen, share) = coat(&light, Vec3::new(1.0, 0.0, 0.0), Vec3::new(-aside, 0.7, -0.7));
+                assert!((0.5 * road..1.6 * road).contains(&seen.y), "{weather} {aside}: {seen:?}, a road sends {road}");
+                assert!(share < 0.62, "{weather} {aside}: {share}");
+            }
+        }
+        let light = Light::new(&cosfly_materials::presets::preset("HardRainNoon").expect("a preset"));
+        let up = Vec3::new(0.0, 0.0, 1.0);
+        let [overhead, level] =
+            [Vec3::new(0.0, 0.05, -1.0), Vec3::new(0.0, 1.0, -0.3)].map(|ray| coat(&light, up, ray).0);
+        assert!(overhead.y > 1.4 * level.y, "{overhead:?} {level:?}");
     }
 }
