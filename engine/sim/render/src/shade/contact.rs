@@ -11,7 +11,7 @@ use cosfly_materials::vector::Vec3;
 pub(super) const FOUR_SIZES: f32 = 2.0;
 
 /// One divided by how far below a vehicle no sky is seen, 1/m.
-const PER_DEEP_M: f32 = 2.0;
+const PER_DEEP_M: f32 = 3.0;
 
 /// Darkens ground below somebody and around.
 pub(super) fn contact(level: Level, shared: &[Shared], blocks: &mut [Block], walker: &Walker) {

@@ -11,7 +11,7 @@ use cosfly_materials::vector::Vec3;
 
 /// Distance that lamps of full strength reach ahead of the vehicle and behind it, metres.
 const AHEAD_M: f32 = 16.0;
-const BEHIND_M: f32 = 2.2;
+const BEHIND_M: f32 = 2.0;
 /// Half the width of the light at the vehicle, and how much wider each metre ahead is.
 const HALF_WIDTH_M: f32 = 0.9;
 const WIDER: f32 = 0.2;
@@ -19,7 +19,7 @@ const WIDER: f32 = 0.2;
 const LAMPS_M: f32 = 0.65;
 /// Light of the lamps where it is strongest, linear RGB.
 const WHITE: Vec3 = Vec3::new(0.46, 0.43, 0.36);
-const RED: Vec3 = Vec3::new(0.16, 0.008, 0.006);
+const RED: Vec3 = Vec3::new(0.055, 0.0028, 0.0021);
 
 /// The lamps of a vehicle.
 #[derive(Clone, Copy)]
@@ -97,7 +97,8 @@ impl Beam {
         let behind_m = -x - half_length_m;
         let aside_m = most(y.abs() - 0.5 * HALF_WIDTH_M, 0.0);
         let gone = (behind_m * behind_m + aside_m * aside_m + up_m * up_m) * (1.0 / (BEHIND_M * BEHIND_M));
-        let glow = if behind_m > 0.0 { share(1.0 - gone) } else { 0.0 };
+        // The bumper shades the ground below it.
+        let glow = share(1.0 - gone) * smoothstep(-0.1, 0.7, behind_m);
         white + RED * (strength * glow * glow * share(normal.z))
     }
 }
@@ -172,6 +173,10 @@ mod tests {
             let at = light_at(&car(heading_rad, BodyKind::Car), "ClearNight", &places);
             assert!(at[0].x > 0.2 && at[0].z > 0.1, "ahead: {:?}", at[0]);
             assert!(at[2].x > 0.02 && at[2].z < 0.1 * at[2].x, "behind: {:?}", at[2]);
+            // Less than a tenth of what lamps ahead send, and none below the bumper.
+            let behind =
+                light_at(&car(heading_rad, BodyKind::Car), "ClearNight", &[[-2.3, 0.0], [-2.9, 0.0], [-3.3, 0.0]]);
+            assert!(behind.iter().all(|lit| lit.x < 0.045) && behind[0].x < 0.004, "behind: {behind:?}");
             for (place, dark) in [1, 3, 4].map(|k| (places[k], at[k])) {
                 assert!(dark.x < 1e-6, "{place:?}: {dark:?}");
             }
