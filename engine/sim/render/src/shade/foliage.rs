@@ -2,14 +2,15 @@
 //!
 //! Labels, ids and depth keep the whole crown, as people annotate trees: the gaps between leaves belong to the tree. A gap
 //! shows the picture beyond the edge, mirrored at it; where gaps are follows from places in the world, so that they stay on
-//! the tree when the camera moves. Only edges before something farther away are broken.
+//! the tree when the camera moves. Only edges before something farther away are broken. People and vehicles are not mirrored: a
+//! second wheel or arm would be seen; the colour of their edge goes on.
 
 use super::geometry::View;
 use super::setting::{Seen, Setting};
 use crate::faces::FaceSource;
 use crate::passes::ids::{CrownSpan, Run, SeenRuns};
 use crate::scene::Scene;
-use cosfly_domain::FrameImages;
+use cosfly_domain::{FrameImages, SemanticLabel};
 use cosfly_frames::simd_kernel;
 use cosfly_materials::leaves::{LeafCrown, Leaves};
 use cosfly_materials::pattern::{NoiseTexture, Noises, hash, lerp, share, unit};
@@ -176,6 +177,7 @@ impl Picture<'_> {
         if depth_m[outside] < depth + 0.3 || instance[outside] == span.instance {
             return;
         }
+        let is_body = is_body(semantic[outside]);
         let pixel_m = self.view.pixel() * depth;
         let (most_px, thin) = if span.is_bare { (MOST_BARE_PX, BARE_THIN) } else { (MOST_PX, THIN) };
         let reach = (span.reach_m / pixel_m).min(most_px);
@@ -193,7 +195,7 @@ impl Picture<'_> {
             }
             // One surface only: what stands beyond the edge, and lines on the ground, have no image within the crown.
             let is_same = instance[behind] == instance[outside] && semantic[behind] == semantic[outside];
-            let behind = if is_same { behind } else { outside };
+            let behind = if is_same && !is_body { behind } else { outside };
             // Fewer gaps farther inside: dents between branches, ragged by leaves.
             let inside = (k as f32 + 0.5) / reach;
             let at = waiting.count;
@@ -275,6 +277,12 @@ simd_kernel! {
             *gap = share((thin + CORNER * corner - places.least[k]) * STEEPNESS);
         }
     }
+}
+
+/// Whether a label is one of people, vehicles and what they take along.
+fn is_body(label: u8) -> bool {
+    (SemanticLabel::Pedestrian.id()..=SemanticLabel::Bicycle.id()).contains(&label)
+        || label == SemanticLabel::Dynamic.id()
 }
 
 /// The crown that a face belongs to.
