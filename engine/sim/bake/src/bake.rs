@@ -103,7 +103,7 @@ fn opaque(faces: &[SceneFace], cars: &BTreeSet<u32>) -> BoxBvh {
 fn of_car(car: &Bystander, to_sun: DVec3, texel_m: f64) -> Vec<Patch> {
     let mut triangles = vec![];
     figure(&car.walker, &Clothes::draw(&car.walker.clothes_seed), 0, &mut triangles);
-    let colours = Livery::draw(&car.walker.clothes_seed).colours(&car.walker.body);
+    let colours = Livery::draw(&car.walker.body, &car.walker.clothes_seed).colours(&car.walker.body);
     let patch = |triangle: &FigureTriangle| {
         let normal = triangle.normal_in_world;
         let mut patch = Patch::new(triangle.corners_in_world.to_vec(), normal, texel_m)?;

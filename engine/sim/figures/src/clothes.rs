@@ -41,7 +41,7 @@ pub enum Pattern {
 pub fn outfit_of(body: BodyShape, seed: &Seed) -> Outfit {
     match body {
         BodyShape::Vehicle { kind, .. } if !kind.row().is_dressed => {
-            let paint = Livery::draw(seed).paint;
+            let paint = Livery::draw(&body, seed).paint;
             Outfit { top: paint, trousers: paint, backpack: false, umbrella: false, traits: None }
         }
         BodyShape::Vehicle { .. } => Outfit { traits: None, ..Clothes::draw(seed).outfit },

@@ -160,7 +160,7 @@ impl People {
         let triangles = first..self.triangles.len();
         let mut colours = match walker.body {
             BodyShape::Person { .. } => [[0.0; 3]; Region::COUNT],
-            BodyShape::Vehicle { .. } => Livery::draw(&walker.clothes_seed).colours(&walker.body),
+            BodyShape::Vehicle { .. } => Livery::draw(&walker.body, &walker.clothes_seed).colours(&walker.body),
         };
         colours[..clothes.colours.len()].copy_from_slice(&clothes.colours);
         let (sin, cos) = real::sin_cos(walker.state.heading_rad);

@@ -34,6 +34,30 @@ const PAINTS: [(f64, Dye); 14] = [
     (0.01, Dye::new(Colour::Yellow, [0.70, 0.52, 0.04])),
 ];
 
+/// Paints of buses with their shares: those of the fleets of cities and of coaches, which are light or strong, so that people see them.
+const FLEETS: [(f64, Dye); 9] = [
+    (0.30, Dye::new(Colour::White, [0.64, 0.64, 0.63])),
+    (0.18, Dye::new(Colour::Red, [0.40, 0.022, 0.020])),
+    (0.12, Dye::new(Colour::Yellow, [0.70, 0.46, 0.03])),
+    (0.12, Dye::new(Colour::Blue, [0.04, 0.15, 0.42])),
+    (0.08, Dye::new(Colour::Grey, [0.48, 0.49, 0.50])),
+    (0.08, Dye::new(Colour::Beige, [0.56, 0.49, 0.34])),
+    (0.06, Dye::new(Colour::Green, [0.05, 0.24, 0.09])),
+    (0.04, Dye::new(Colour::Green, [0.24, 0.42, 0.06])),
+    (0.02, Dye::new(Colour::Orange, [0.62, 0.19, 0.02])),
+];
+
+/// Paints of vans with their shares: firms buy most of them, in white.
+const FIRMS: [(f64, Dye); 7] = [
+    (0.60, Dye::new(Colour::White, [0.64, 0.64, 0.63])),
+    (0.12, Dye::new(Colour::Grey, [0.48, 0.49, 0.50])),
+    (0.08, Dye::new(Colour::Grey, [0.13, 0.135, 0.14])),
+    (0.06, Dye::new(Colour::Black, [0.018, 0.018, 0.020])),
+    (0.07, Dye::new(Colour::Blue, [0.020, 0.050, 0.18])),
+    (0.04, Dye::new(Colour::Red, [0.38, 0.018, 0.018])),
+    (0.03, Dye::new(Colour::Yellow, [0.70, 0.52, 0.04])),
+];
+
 /// Furs of dogs, linear RGB.
 const FURS: [[f32; 3]; 6] = [
     [0.015, 0.013, 0.012],
@@ -45,18 +69,23 @@ const FURS: [[f32; 3]; 6] = [
 ];
 
 impl Livery {
-    /// The livery that a seed draws.
-    pub fn draw(seed: &Seed) -> Self {
+    /// The livery that the seed of a body draws.
+    pub fn draw(body: &BodyShape, seed: &Seed) -> Self {
         let mut stream = seed.stream("livery");
-        let mut draw = || {
+        let mut draw = |paints: &[(f64, Dye)]| {
             let mut left = stream.unit();
             let of_share = |(share, _): &&(f64, Dye)| {
                 left -= share;
                 left < 0.0
             };
-            PAINTS.iter().find(of_share).unwrap_or(&PAINTS[0]).1
+            paints.iter().find(of_share).unwrap_or(&PAINTS[0]).1
         };
-        let (paint, other) = (draw(), draw());
+        let paints: &[(f64, Dye)] = match body {
+            BodyShape::Vehicle { kind: BodyKind::Bus, .. } => &FLEETS,
+            BodyShape::Vehicle { kind: BodyKind::Van, .. } => &FIRMS,
+            _ => &PAINTS,
+        };
+        let (paint, other) = (draw(paints), draw(&PAINTS));
         // Most boxes of lorries are white.
         let cargo = if stream.chance(0.6) { PAINTS[0].1 } else { other };
         let fur = FURS[seed.stream("fur").index(FURS.len())];
@@ -89,14 +118,36 @@ impl Livery {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cosfly_frames::DVec3;
+
+    fn share_of(kind: BodyKind, name: Colour) -> f64 {
+        let body = BodyShape::Vehicle { kind, size_m: DVec3::ONE };
+        let drawn = (0..4000).filter(|it| Livery::draw(&body, &Seed([3; 32]).child("car", *it)).paint.name == name);
+        drawn.count() as f64 / 4000.0
+    }
 
     #[test]
     fn paints_have_their_shares() {
-        assert!((PAINTS.iter().map(|(share, _)| share).sum::<f64>() - 1.0).abs() < 1e-9);
-        let liveries: Vec<Livery> = (0..4000).map(|number| Livery::draw(&Seed([3; 32]).child("car", number))).collect();
+        for paints in [&PAINTS[..], &FLEETS, &FIRMS] {
+            assert!((paints.iter().map(|(share, _)| share).sum::<f64>() - 1.0).abs() < 1e-9);
+        }
         for (name, share) in [(Colour::White, 0.33), (Colour::Black, 0.20), (Colour::Grey, 0.26), (Colour::Red, 0.05)] {
-            let drawn = liveries.iter().filter(|livery| livery.paint.name == name).count() as f64 / 4000.0;
+            let drawn = share_of(BodyKind::Car, name);
             assert!((drawn - share).abs() < 0.03, "{name:?}: {drawn}");
+        }
+        for (kind, name, share) in [(BodyKind::Bus, Colour::Red, 0.18), (BodyKind::Van, Colour::White, 0.60)] {
+            let drawn = share_of(kind, name);
+            assert!((drawn - share).abs() < 0.03, "{kind:?} {name:?}: {drawn}");
+        }
+    }
+
+    #[test]
+    fn no_bus_is_black_brown_or_dark_grey() {
+        for number in 0..2000 {
+            let body = BodyShape::Vehicle { kind: BodyKind::Bus, size_m: DVec3::ONE };
+            let paint = Livery::draw(&body, &Seed([8; 32]).child("bus", number)).paint;
+            assert!(!matches!(paint.name, Colour::Black | Colour::Brown), "{number}");
+            assert!(paint.linear_rgb.iter().fold(0.0, |most: f32, it| most.max(*it)) > 0.2, "{number}: {paint:?}");
         }
     }
 }
