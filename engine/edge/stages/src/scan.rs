@@ -58,7 +58,7 @@ impl StageKind for Scan {
         let mut canonical = parameters::canonical(&config);
         canonical["version"] = source.version.clone().into();
         let properties = StageProperties {
-            version: 3,
+            version: 4,
             parameters: canonical,
             inputs: self.ports(),
             items: ItemRule::PerInput("frames"),

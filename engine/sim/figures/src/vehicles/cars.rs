@@ -42,6 +42,11 @@ pub(super) fn car(model: &mut Model<'_>, shape: &Shape, phase_rad: f64, looks: &
         model.hull(Region::Paint, &fin, [0.012, 0.006]);
     }
     ends(model, shape);
+    if has_bare_sides(shape) && looks.chance(0.6) {
+        for ys in [[-0.68, -0.08], [0.08, 0.68]] {
+            model.cross_panel(Region::Glass, [[-0.5, 0.58], [-0.496, 0.82]], ys, END);
+        }
+    }
     mirrors(model, shape, 0.14, Region::Paint);
     let radius_m = shape.wheel * model.size_m.z;
     let rim = Rim::Open(turn_rad(phase_rad, model.size_m.z, radius_m));
@@ -50,6 +55,12 @@ pub(super) fn car(model: &mut Model<'_>, shape: &Shape, phase_rad: f64, looks: &
         let (x_m, half_width_m) = (x * model.size_m.x, (shape.sheet + 0.014) * model.size_m.y);
         model.axle(&Axle { x_m, half_width_m, radius_m, arch_from_m, rim });
     }
+}
+
+/// Whether no windows are behind the seats in front, as in vans for goods.
+pub(super) fn has_bare_sides(shape: &Shape) -> bool {
+    let is_pane = |it: &Section| it.regions[1] == Region::Glass || it.regions[2] == Region::Glass;
+    !shape.sections.iter().any(|it| it.x < -0.1 && is_pane(it))
 }
 
 /// Half the width of the sheet, in widths: both ends are rounded.

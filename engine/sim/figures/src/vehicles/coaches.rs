@@ -46,18 +46,18 @@ const COACH: Shape = Shape {
     axles: [-0.26, 0.275],
     sections: &[
         roof(-0.5, 0.50, 0.90, [R, P, P]),
-        roof(-0.492, 0.50, 0.955, [P, P, P]),
-        roof(-0.455, 0.50, 0.985, [P, G, P]),
-        roof(-0.26, 0.50, 1.0, [P, T, P]),
-        roof(-0.255, 0.50, 1.0, [P, G, P]),
-        roof(-0.07, 0.50, 1.0, [P, T, P]),
-        roof(-0.065, 0.50, 1.0, [P, G, P]),
-        roof(0.12, 0.50, 1.0, [P, T, P]),
-        roof(0.125, 0.50, 1.0, [P, G, P]),
-        roof(0.31, 0.49, 1.0, [P, T, P]),
-        roof(0.315, 0.47, 1.0, [P, G, P]),
-        roof(0.42, 0.40, 0.985, [P, G, P]),
-        roof(0.455, 0.36, 0.955, [P, G, G]),
+        roof(-0.492, 0.50, 0.945, [P, P, P]),
+        roof(-0.455, 0.50, 0.96, [P, G, P]),
+        roof(-0.26, 0.50, 0.97, [P, T, P]),
+        roof(-0.255, 0.50, 0.97, [P, G, P]),
+        roof(-0.07, 0.50, 0.97, [P, T, P]),
+        roof(-0.065, 0.50, 0.97, [P, G, P]),
+        roof(0.12, 0.50, 0.97, [P, T, P]),
+        roof(0.125, 0.50, 0.97, [P, G, P]),
+        roof(0.31, 0.49, 0.97, [P, T, P]),
+        roof(0.315, 0.47, 0.97, [P, G, P]),
+        roof(0.42, 0.40, 0.96, [P, G, P]),
+        roof(0.455, 0.36, 0.945, [P, G, G]),
         deck(0.492, 0.30, 0.33, [P, P, P]),
         deck(0.5, 0.20, 0.21, [P, P, P]),
     ],
@@ -85,6 +85,7 @@ pub(super) fn bus(model: &mut Model<'_>, looks: &mut RandomStream) {
             let pod = [[from, 0.94], [to, 0.94], [to - 0.01, 1.0], [from + 0.01, 1.0]];
             model.hull(Region::Cargo, &pod, [0.34, 0.34]);
         }
+        hatches(model, &[-0.08, 0.34], 0.947);
         model.cross_panel(T, [[-0.5, 0.40], [-0.5, 0.44]], [-0.6, 0.6], STRAIGHT);
         axles(model, shape.wheel, &shape.axles);
     } else {
@@ -92,10 +93,21 @@ pub(super) fn bus(model: &mut Model<'_>, looks: &mut RandomStream) {
             let lid = [[x, 0.14], [x + 0.16, 0.14], [x + 0.16, 0.145], [x, 0.145]];
             model.side_panels(T, &lid, STRAIGHT);
         }
+        // Air is cooled on the roof, too, in the colour of the body.
+        let pod = [[-0.30, 0.965], [-0.10, 0.965], [-0.115, 1.0], [-0.285, 1.0]];
+        model.hull(P, &pod, [0.34, 0.34]);
+        hatches(model, &[-0.40, 0.06, 0.28], 0.972);
         let [rear, front] = shape.axles;
         axles(model, shape.wheel, &[rear - 0.115, rear, front]);
     }
     model.cross_panel(G, [[-0.5, 0.56], [-0.5, 0.84]], [-0.85, 0.85], STRAIGHT);
+}
+
+/// Panes in the roof from these places on, at a height: one looks up through them, and gets out through them.
+fn hatches(model: &mut Model<'_>, places: &[f64], height: f64) {
+    for from in places {
+        model.cross_top(G, [*from, from + 0.066], height, 0.15);
+    }
 }
 
 /// The lit number and the name of where a bus goes, above the windscreen.

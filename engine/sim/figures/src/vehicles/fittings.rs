@@ -1,6 +1,7 @@
 //! What is seen on and through the sheet of a vehicle without being a shape: gaps of doors and lids, seats, dirt.
 
 use super::cars;
+use super::lorries::Load;
 use super::shapes::Shape;
 use crate::body_shape::BodyShape;
 use crate::region::Region;
@@ -33,6 +34,8 @@ pub struct Fittings {
     pub rear_plate: f64,
     /// A sign on the sides of a van, a lorry's box or a bus.
     pub sign: Sign,
+    /// Whether it opens behind by two doors, as boxes of lorries and vans without windows do.
+    pub has_rear_doors: bool,
     /// Backs of the rows of seats.
     pub seats: [f64; 2],
     /// How dirty the vehicle is, 0..=1.
@@ -113,6 +116,7 @@ impl Fittings {
             skirt: -NOWHERE,
             rear_plate: NOWHERE,
             sign: Sign::NONE,
+            has_rear_doors: false,
             seats: [NOWHERE; 2],
             dirt,
             flakes,
@@ -121,12 +125,15 @@ impl Fittings {
             BodyShape::Vehicle { kind: kind @ (BodyKind::Car | BodyKind::Van), size_m } => {
                 let shape = cars::shape(kind, size_m, &mut walker.clothes_seed.stream("shape"));
                 let tail_lamps = tail_lamps(shape, &mut looks);
-                let has_panes =
-                    shape.sections.iter().any(|it| it.roofed && it.x < -0.1 && it.regions[1] == Region::Glass);
-                let sign = Sign::draw(kind, has_panes, &mut looks);
-                Self { size_m, tail_lamps, sign, ..bare.with(shape) }
+                let has_rear_doors = cars::has_bare_sides(shape);
+                let sign = Sign::draw(kind, !has_rear_doors, &mut looks);
+                Self { size_m, tail_lamps, sign, has_rear_doors, ..bare.with(shape) }
             }
-            BodyShape::Vehicle { kind, size_m } => Self { size_m, sign: Sign::draw(kind, true, &mut looks), ..bare },
+            BodyShape::Vehicle { kind, size_m } => {
+                let has_rear_doors =
+                    kind == BodyKind::Truck && Load::draw(&mut walker.clothes_seed.stream("shape")) == Load::Box;
+                Self { size_m, sign: Sign::draw(kind, true, &mut looks), has_rear_doors, ..bare }
+            }
             BodyShape::Person { .. } => bare,
         }
     }
@@ -161,6 +168,6 @@ fn tail_lamps(shape: &Shape, looks: &mut RandomStream) -> [f64; 3] {
         [0.74, top - 0.22, top + 0.01]
     } else {
         let inner = if looks.chance(0.15) { 0.0 } else { looks.uniform(0.45, 0.62) };
-        [inner, top - looks.uniform(0.07, 0.11), top + 0.01]
+        [inner, top - looks.uniform(0.09, 0.14), top + 0.01]
     }
 }

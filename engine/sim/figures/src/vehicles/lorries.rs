@@ -32,6 +32,25 @@ const CAB_SECTIONS: &[Section] = &[
     deck(0.5, 0.24, 0.25, [P, P, P]),
 ];
 
+/// What a lorry carries its load in.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Load {
+    Box,
+    Tipper,
+    Tank,
+}
+
+impl Load {
+    /// That of a lorry: most have boxes.
+    pub fn draw(looks: &mut RandomStream) -> Self {
+        match looks.index(10) {
+            0..=5 => Self::Box,
+            6..=7 => Self::Tipper,
+            _ => Self::Tank,
+        }
+    }
+}
+
 /// A lorry of one of three kinds.
 pub(super) fn lorry(model: &mut Model<'_>, looks: &mut RandomStream) {
     shell(model, &CAB).draw(model);
@@ -42,16 +61,16 @@ pub(super) fn lorry(model: &mut Model<'_>, looks: &mut RandomStream) {
     let [rear, front] = CAB.axles;
     let two = [rear + 0.05, front];
     let three = [rear - 0.06, rear + 0.08, front];
-    let places: &[f64] = match looks.index(10) {
-        0..=5 => {
+    let places: &[f64] = match Load::draw(looks) {
+        Load::Box => {
             boxed(model);
             &two
         }
-        6..=7 => {
+        Load::Tipper => {
             tipper(model);
             &three
         }
-        _ => {
+        Load::Tank => {
             tanker(model);
             &two
         }
@@ -59,17 +78,11 @@ pub(super) fn lorry(model: &mut Model<'_>, looks: &mut RandomStream) {
     axles(model, CAB.wheel, places);
 }
 
-/// A box with dark edges, and a shield above the cab.
+/// A box with a dark edge below, and a shield above the cab.
 fn boxed(model: &mut Model<'_>) {
     model.hull(C, &[[-0.5, 0.28], [0.255, 0.28], [0.255, 1.0], [-0.5, 1.0]], STRAIGHT);
     model.cross_panel(T, [[-0.5, 0.285], [-0.5, 0.31]], [-0.98, 0.98], STRAIGHT);
-    for y in [-0.012, 0.0] {
-        model.cross_panel(T, [[-0.5, 0.32], [-0.5, 0.97]], [y, y + 0.012], STRAIGHT);
-    }
-    for side in [[0.285, 0.305], [0.975, 0.99]] {
-        let [low, high] = side;
-        model.side_panels(T, &[[-0.495, low], [0.25, low], [0.25, high], [-0.495, high]], STRAIGHT);
-    }
+    model.side_panels(T, &[[-0.495, 0.285], [0.25, 0.285], [0.25, 0.305], [-0.495, 0.305]], STRAIGHT);
     model.hull(P, &[[0.275, 0.76], [0.42, 0.79], [0.30, 0.97], [0.275, 0.97]], [0.40, 0.34]);
     guards(model);
 }

@@ -231,6 +231,21 @@ fn lamps_bumpers_and_signs_are_on_the_sheet() {
 }
 
 #[test]
+fn boxes_of_lorries_have_doors_and_tanks_have_none() {
+    let mut boxed = 0;
+    for number in 0..60 {
+        let lorry = vehicle(BodyKind::Truck, DVec3::new(8.5, 2.5, 3.4), number);
+        let mut triangles = vec![];
+        figure(&lorry, &Clothes::draw(&lorry.clothes_seed), 0, &mut triangles);
+        // A box has six sides.
+        let is_box = triangles.iter().filter(|it| it.region == Region::Cargo).count() == 12;
+        assert_eq!(crate::Fittings::of(&lorry).has_rear_doors, is_box, "{number}");
+        boxed += u32::from(is_box);
+    }
+    assert!((25..48).contains(&boxed), "{boxed}");
+}
+
+#[test]
 fn a_size_that_is_none_is_not_drawn() {
     for size_m in [[4.0, 0.0, 1.5], [f64::NAN, 2.0, 1.5], [400.0, 2.0, 1.5]] {
         assert!(walker_triangles(&vehicle(BodyKind::Car, DVec3::from_array(size_m), 1)).is_empty());

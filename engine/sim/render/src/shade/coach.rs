@@ -63,6 +63,8 @@ pub(super) struct Coach {
     word_heights: [f32; 2],
     band: [f32; 2],
     letters: u32,
+    /// One where there are two doors behind.
+    rear_doors: f32,
     seats: [f32; 2],
     dirt: f32,
     /// Share of light lost where paint is seen along.
@@ -128,6 +130,7 @@ impl Coach {
             letters: fittings.sign.letters,
             skirt_m: (fittings.skirt * size_m.z) as f32,
             rear_plate_m: (fittings.rear_plate * size_m.z) as f32,
+            rear_doors: f32::from(u8::from(fittings.has_rear_doors)),
             seats: fittings.seats.map(along_m),
             dirt: fittings.dirt as f32,
             flakes: if fittings.flakes { 0.45 } else { 0.0 },
@@ -166,8 +169,10 @@ impl Coach {
             )
         };
         let lids = most(lid(self.bonnet, self.bonnet[1]), lid(self.boot, self.boot[0]));
+        let halves = line(own.y) * within(own.z, [self.bumper_m, 0.92 * self.height_m]) * self.rear_doors;
+        let halves = halves * share((-own.x - 0.86 * self.half_length_m) / reach);
         let gutters = line(across - self.gutter_m) * share((own.z - 0.88 * self.height_m) / reach);
-        aside * (1.0 - upward) + most(lids, gutters) * upward
+        most(aside, halves) * (1.0 - upward) + most(lids, gutters) * upward
     }
 
     /// Share of a pixel that lamps at the tail take. They reach round the corners.
@@ -238,7 +243,7 @@ simd_kernel! {
         let look = *look;
         match look.kind {
             Kind::Sheet => sheet(shared, blocks, &look, noise),
-            Kind::Cargo => cargo(shared, blocks, &look),
+            Kind::Cargo => cargo(shared, blocks, &look, noise),
             Kind::Glass => glass(shared, blocks, &look),
             Kind::Other => even(blocks, &look),
         }
@@ -271,8 +276,8 @@ fn sheet(shared: &[Shared], blocks: &mut [Block], look: &Coach, noise: &NoiseTex
                 let shade = (1.0 - 0.8 * gap) * (1.0 - aside * (SIDES + LOW * low) * (1.0 - shoulder)) * flakes[k];
                 let lamp = look.tail_lamp(own, footprint_m[k]);
                 let [plastic, badge] = look.fascia(own, footprint_m[k]);
-                let paint = look.colour.lerp(DUST, share(dust)) * shade;
-                let paint = paint.lerp(look.sign, look.signed(own, aside, footprint_m[k]));
+                let paint = look.colour.lerp(DUST, share(dust));
+                let paint = paint.lerp(look.sign, look.signed(own, aside, footprint_m[k])) * shade;
                 let paint = paint.lerp(PLASTIC, plastic).lerp(BADGE, badge);
                 set(&mut block.albedo, k, paint.lerp(TAIL_LAMP, lamp));
                 set(&mut block.emission, k, TAIL_LAMP * (lamp * look.glow * TAIL_GLOW));
@@ -283,9 +288,10 @@ fn sheet(shared: &[Shared], blocks: &mut [Block], look: &Coach, noise: &NoiseTex
     }
 }
 
-/// The box of a lorry: its sign, seams of its walls, bars of its doors, tape that shines along its lower edge.
+/// The box of a lorry: its sign, seams of its walls and roof, bars of its doors, tape that shines along its lower edge, and what the
+/// rain leaves on its roof. Its walls lose light to the road as sheet does.
 #[inline(always)]
-fn cargo(shared: &[Shared], blocks: &mut [Block], look: &Coach) {
+fn cargo(shared: &[Shared], blocks: &mut [Block], look: &Coach, noise: &NoiseTexture) {
     for (shared, four) in groups(shared, blocks) {
         let mut footprint_m = [0.0; WIDE];
         for (k, wide_m) in footprint_m.iter_mut().enumerate() {
@@ -298,15 +304,24 @@ fn cargo(shared: &[Shared], blocks: &mut [Block], look: &Coach) {
                 let own = look.own(point.world);
                 let along = point.normal.dot(look.along).abs();
                 let aside = point.normal.dot(look.side).abs();
-                let seams = stripes(own.x / 1.22, 0.0, 0.016, wide_m / 1.22) * aside;
+                let upward = share((point.normal.z - 0.35) * 3.0);
+                let seams = stripes(own.x / 1.22, 0.0, 0.016, wide_m / 1.22) * most(aside, upward);
                 let across = own.y.abs() / look.half_width_m;
                 let [inner, outer] = [0.30, 0.72].map(|at| band(across, at, at + 0.035, wide_m / look.half_width_m));
-                let bars = (inner + outer) * along;
+                let behind = along * look.rear_doors;
+                let bars = (inner + outer) * behind;
+                // The doors meet in the middle; rails of bare metal hold the roof.
+                let between = band(own.y, -0.012, 0.012, wide_m) * behind;
+                let rail = band(own.z - look.height_m, -0.07, 0.0, wide_m) * aside * look.rear_doors;
                 let tape_m = own.z - 0.315 * look.height_m;
                 let dashes = stripes(own.x + own.y, 0.0, 0.5, wide_m);
                 let tape = band(tape_m, -0.03, 0.03, wide_m) * (along + aside) * dashes;
-                let wall = look.colour * (1.0 - 0.45 * seams);
-                let wall = wall.lerp(look.sign, look.signed(own, aside, wide_m)).lerp(BADGE, share(bars));
+                let pools = noise.clumps(own.x * 6.0, own.y * 6.0, wide_m * 6.0);
+                let dust = (0.04 + 0.25 * look.dirt) * (0.3 + 1.4 * pools) * upward;
+                let lost = (1.0 - upward) * (SIDES + LOW * share(1.0 - own.z));
+                let wall = look.colour.lerp(DUST, share(dust)) * (1.0 - 0.45 * seams);
+                let wall = wall.lerp(look.sign, look.signed(own, aside, wide_m)).lerp(BADGE, share(bars + rail));
+                let wall = wall * ((1.0 - lost) * (1.0 - 0.9 * share(between)));
                 set(&mut block.albedo, k, wall.lerp(TAPE, share(tape)));
                 set(&mut block.emission, k, look.emission);
                 block.mirror[k] = look.mirror;
