@@ -113,12 +113,15 @@ pub fn examine_texts(
         (Layout::Cosfly, flags, vec![])
     } else if let Some(root) = v7::root(folder) {
         (Layout::V7, v7::episodes(&root, &mut add, progress)?, vec![])
-    } else if lerobot::recognises(folder) {
-        let (episodes, flags, notes) = lerobot::episodes(folder, progress)?;
+    } else {
+        let roots = lerobot::roots(folder);
+        let (episodes, flags, notes) = match &roots[..] {
+            [] => return Err(unknown(folder)),
+            [root] if root == folder => lerobot::episodes(folder, progress)?,
+            _ => lerobot::episodes_of_splits(&roots, progress)?,
+        };
         episodes.into_iter().for_each(add);
         (Layout::Lerobot, flags, notes)
-    } else {
-        return Err(unknown(folder));
     };
     stop.check("doctor")?;
     if let Some(stranger) = texts.and_then(|texts| texts.stranger(tally.traces.iter().map(Trace::id))) {

@@ -32,10 +32,10 @@ pub struct TextFigures {
     pub diversity: Diversity,
     /// Share of texts without a contradiction.
     pub true_share: f64,
-    /// Share of texts that name the target by its clothes, of flights whose clothes are known.
-    pub names_target_share: f64,
+    /// Share of texts that name the target by its clothes, of flights whose clothes are known; none where none are.
+    pub names_target_share: Option<f64>,
     /// Share of texts that name clothes which nobody else who is seen in the flight wears, of flights where that is known.
-    pub singles_out_share: f64,
+    pub singles_out_share: Option<f64>,
     /// By subject: number of texts that speak of it, and of texts that contradict the facts in it.
     pub subjects: BTreeMap<&'static str, [usize; 2]>,
     /// Number of texts by relation of the target to its surroundings that they speak of.
@@ -173,14 +173,15 @@ impl TextTally {
     pub(crate) fn figures(&self) -> Vec<TextFigures> {
         let of = |at: usize| {
             let share = |part: usize, whole: usize| part as f64 / whole.max(1) as f64;
+            let known = |[part, whole]: [usize; 2]| (whole > 0).then(|| share(part, whole));
             let texts = || self.texts[at].iter().map(String::as_str);
             let Coverage { relations, intents } = coverage(texts(), Language::ALL[at]);
             TextFigures {
                 language: Language::ALL[at].code(),
                 diversity: diversity(texts(), Language::ALL[at]),
                 true_share: share(self.clean[at], self.texts[at].len()),
-                names_target_share: share(self.dressed[at][0], self.dressed[at][1]),
-                singles_out_share: share(self.singled[at][0], self.singled[at][1]),
+                names_target_share: known(self.dressed[at]),
+                singles_out_share: known(self.singled[at]),
                 subjects: self.subjects[at].iter().map(|(slot, counts)| (slot.name(), *counts)).collect(),
                 relations,
                 intents,
@@ -209,5 +210,16 @@ mod tests {
         assert_eq!(count([film("a-left", "a"), film("a-right", "a")]), 1);
         assert_eq!(count([film("a", "a"), film("b", "b")]), 2);
         assert_eq!(count([film("a", ""), film("b", "")]), 2);
+    }
+
+    #[test]
+    fn shares_of_clothes_are_of_flights_whose_clothes_are_known() {
+        let of = |is_unlike_all: Option<bool>| {
+            let mut tally = TextTally::default();
+            tally.add(&ExaminedEpisode { is_unlike_all, ..film("a", "") });
+            let figures = tally.figures().remove(0);
+            (figures.names_target_share, figures.singles_out_share)
+        };
+        assert_eq!((of(None), of(Some(true))), ((None, None), (None, Some(0.0))));
     }
 }

@@ -135,19 +135,16 @@ fn the_doctor_reads_depth_of_an_export_for_lerobot() {
         let options = Map::from_iter(options.into_iter().filter(|_| with_depth));
         let format = cosfly_export::prepare("lerobot", options).unwrap();
         format.write(&PublishedDataset::open(&dataset).unwrap(), &Default::default(), &out, &|_, _| {}).unwrap();
-        let splits = std::fs::read_dir(&out).unwrap().map(|it| it.unwrap().path()).filter(|it| it.is_dir());
-        let (mut names, mut notes) = (vec![], String::new());
-        for split in splits {
-            let found = cosfly_doctor::examine(&split, &[], &mut |_, _| {}).unwrap();
-            names.extend(found.flags.iter().map(|flag| flag.name));
-            notes += &found.unchecked.join("; ");
-        }
+        // The splits, each a dataset of its own, at once.
+        let found = cosfly_doctor::examine(&out, &[], &mut |_, _| {}).unwrap();
+        assert_eq!((found.episodes, found.frames), (4, 20));
+        let mut names: Vec<&str> = found.flags.iter().map(|flag| flag.name).collect();
         names.dedup();
-        (names, notes)
+        (names, found.unchecked.join("; "))
     };
     let (names, notes) = found(1.0, true);
-    assert!(names.is_empty() && notes.contains("depth: its files, unit and frames are checked"), "{names:?} {notes}");
-    assert!(!notes.contains("can be parsed"), "{notes}");
+    assert!(names.is_empty() && notes.contains("depth: its files and unit are checked"), "{names:?} {notes}");
+    assert!(!notes.contains("can be parsed") && !notes.contains("no splits are stated"), "{notes}");
     assert_eq!(found(100.0, true).0, ["depth-unit"]);
     let (names, notes) = found(100.0, false);
     assert!(names.is_empty() && notes.contains("no feature is marked"), "{names:?} {notes}");

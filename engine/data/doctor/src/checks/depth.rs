@@ -35,6 +35,10 @@ pub fn check(episode: &ExaminedEpisode) -> Vec<Flag> {
     if let Some((_, unit)) = UNITS.into_iter().find(|(per_metre, _)| is_off && has_unit(*per_metre)) {
         return flag("depth-unit", format!("depth is in {unit}: {ratio:.4} times the distance in metres"));
     }
+    if episode.is_mount_unknown {
+        // Distances and depths along an axis that is not known differ by what the target is off the axis.
+        return vec![];
+    }
     let spread = |place: usize| {
         let gaps: Vec<f64> = looks
             .iter()
@@ -61,9 +65,7 @@ pub fn check(episode: &ExaminedEpisode) -> Vec<Flag> {
                 ),
             )
         }
-        _ if is_off && !episode.is_mount_unknown => {
-            flag("depth-mismatch", format!("depth at the target is {ratio:.3} times its distance"))
-        }
+        _ if is_off => flag("depth-mismatch", format!("depth at the target is {ratio:.3} times its distance")),
         _ => vec![],
     }
 }
@@ -99,6 +101,13 @@ mod tests {
             check(&episode).iter().map(|flag| flag.name).collect::<Vec<_>>()
         };
         assert_eq!((named(28.3, true), named(20.0, false)), (vec![], vec![]));
+        let unknown = |metres: f64| {
+            let look = |frame| ExaminedLook { frame, depth_m: vec![Some(metres); OFFSETS.len()], ..Default::default() };
+            let (moments, looks) = (vec![moment.clone(); 5], (0..5).map(look).collect());
+            let episode = ExaminedEpisode { is_mount_unknown: true, moments, looks, ..Default::default() };
+            check(&episode).iter().map(|flag| flag.name).collect::<Vec<_>>()
+        };
+        assert_eq!((unknown(28.3), unknown(20.0), unknown(28_300.0)), (vec![], vec![], vec!["depth-unit"]));
         assert_eq!((named(20.0, true), named(28.3, false)), (vec!["depth-mismatch"], vec!["depth-mismatch"]));
     }
 }

@@ -21,6 +21,7 @@ use crate::whole_files::parquet_problem;
 use crate::{ExaminedEpisode, Flag};
 use cosfly_diagnose::{Fault, Result, Stop};
 use cosfly_read::foreign_rows;
+use cosfly_schema::Split;
 use features::Features;
 use frames::Frames;
 use listed::Listed;
@@ -28,7 +29,17 @@ use std::path::{Path, PathBuf};
 
 pub use info::info;
 
-/// Whether `folder` has this layout.
+/// The datasets in `folder`: itself, or those of its splits, as `cosfly export` writes them; none of another layout.
+pub fn roots(folder: &Path) -> Vec<PathBuf> {
+    if recognises(folder) {
+        return vec![folder.to_owned()];
+    }
+    let mut found: Vec<PathBuf> = Split::ALL.iter().map(|split| folder.join(split.name())).collect();
+    found.retain(|path| recognises(path));
+    found
+}
+
+/// Whether `folder` is such a dataset.
 pub fn recognises(folder: &Path) -> bool {
     folder.join("meta/info.json").is_file()
 }
@@ -42,6 +53,29 @@ pub type Read = (Vec<ExaminedEpisode>, Vec<Flag>, Vec<String>);
 /// Refusals of the machine where a folder cannot be listed.
 pub fn episodes(folder: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<Read> {
     read(folder, true, progress)
+}
+
+/// Like [`episodes`], of the datasets of the splits `roots` in a folder: ids and places begin with the name of the split.
+///
+/// # Errors
+/// Those of [`episodes`].
+pub fn episodes_of_splits(roots: &[PathBuf], progress: &mut dyn FnMut(u64, u64)) -> Result<Read> {
+    let (mut episodes, mut flags, mut notes) = (vec![], vec![], vec![]);
+    for root in roots {
+        let split = root.file_name().unwrap_or_default().to_string_lossy();
+        let (found, own_flags, own_notes) = read(root, true, progress)?;
+        episodes.extend(found.into_iter().map(|episode| ExaminedEpisode {
+            id: format!("{split}/{}", episode.id),
+            group: format!("{split}/{}", episode.group),
+            split: Some(split.clone().into_owned()),
+            ..episode
+        }));
+        flags.extend(own_flags.into_iter().map(|flag| Flag { place: format!("{split}/{}", flag.place), ..flag }));
+        notes.extend(own_notes);
+    }
+    notes.sort();
+    notes.dedup();
+    Ok((episodes, flags, notes))
 }
 
 /// Reads the numbers of all episodes; pictures and videos are not looked at.
@@ -138,7 +172,7 @@ fn gaps(features: &Features) -> Vec<String> {
     let has_places = features.position.is_some() && features.target.is_some() && features.edges.is_some();
     notes.push(match (&features.depth, features.other_depth.first()) {
         (Some(_), _) if has_places => {
-            "depth: its files, unit and frames are checked; its values are not, since no feature is the place of the camera"
+            "depth: its files and unit are checked; its values and frames are not, since no feature is the place of the camera"
                 .to_owned()
         }
         (Some(_), _) => "depth: its files are checked; its unit needs features of the drone's place, the target's and its box"

@@ -17,19 +17,9 @@ use std::path::{Path, PathBuf};
 
 pub(super) const LAYOUT: Layout = Layout {
     doc: "LeRobot (`meta/info.json`)",
-    recognises: |folder| !roots(folder).is_empty(),
-    open: |folder| Ok(Box::new(open(folder, &roots(folder))?)),
+    recognises: |folder| !lerobot::roots(folder).is_empty(),
+    open: |folder| Ok(Box::new(open(folder, &lerobot::roots(folder))?)),
 };
-
-/// The LeRobot datasets in `folder`: itself, or those of its splits, as `cosfly export` writes them.
-fn roots(folder: &Path) -> Vec<PathBuf> {
-    if lerobot::recognises(folder) {
-        return vec![folder.to_owned()];
-    }
-    let mut found: Vec<PathBuf> = ["train", "val", "test"].iter().map(|split| folder.join(split)).collect();
-    found.retain(|path| lerobot::recognises(path));
-    found
-}
 
 /// Opens the datasets `roots` in `folder` as one.
 ///

@@ -158,9 +158,14 @@ fn text(examination: &Examination, allowed: f64) -> String {
 fn language(figures: &TextFigures) -> String {
     let mut text = String::new();
     let it = &figures.diversity;
+    let share = |share: Option<f64>, what: &str| share.map(|share| format!("{:.0} % {what}", 100.0 * share));
+    let shares =
+        [share(figures.names_target_share, "name clothes"), share(figures.singles_out_share, "single the target out")];
+    let shares: Vec<String> = shares.into_iter().flatten().collect();
+    let shares = if shares.is_empty() { String::new() } else { format!("; {}", shares.join(", ")) };
     let _ = writeln!(
         text,
-        "texts ({}): {} of {} different; {:.1} % true; distinct-1 {:.3}, distinct-2 {:.3}, self-BLEU {:.2}; {} to {} words, {:.1} on average; {:.0} % name clothes, {:.0} % single the target out",
+        "texts ({}): {} of {} different; {:.1} % true; distinct-1 {:.3}, distinct-2 {:.3}, self-BLEU {:.2}; {} to {} words, {:.1} on average{}",
         figures.language,
         it.different_texts,
         it.texts,
@@ -171,8 +176,7 @@ fn language(figures: &TextFigures) -> String {
         it.words[0],
         it.words[1],
         it.mean_words,
-        100.0 * figures.names_target_share,
-        100.0 * figures.singles_out_share,
+        shares,
     );
     let verdict = |(subject, [told, wrong]): (&&str, &[usize; 2])| format!("{subject} {told} ({wrong} wrong)");
     let verdicts: Vec<String> = figures.subjects.iter().map(verdict).collect();
