@@ -1,7 +1,7 @@
 //! Axes of charts inside of HTML pages.
 
 use crate::statistics;
-use crate::text::{escaped, short};
+use crate::text::{escaped, told_apart};
 use std::fmt::Write;
 
 const WIDTH: f64 = 360.0;
@@ -38,8 +38,9 @@ impl Axes {
         for value in ticks(self.y, 4.0) {
             self.grid_line(svg, self.y(value), &y_label(value));
         }
-        for value in ticks(self.x, 6.0) {
-            self.x_label(svg, value, "mid", &short(value));
+        let values = ticks(self.x, 6.0);
+        for (value, label) in values.iter().zip(told_apart(&values)) {
+            self.x_label(svg, *value, "mid", &label);
         }
     }
 

@@ -3,7 +3,7 @@
 use crate::axes::{Axes, open};
 use crate::distribution::Distribution;
 use crate::statistics;
-use crate::text::{escaped, percent, short};
+use crate::text::{escaped, percent, short, told_apart};
 use std::fmt::Write;
 
 /// Values of experts' and of perturbed flights.
@@ -83,8 +83,9 @@ fn numbers(edges: &[f64], series: &[(&str, Vec<f64>)]) -> String {
         let _ = write!(table, "<th scope=\"col\">{name}</th>");
     });
     table.push_str("</tr></thead><tbody>");
+    let labels = told_apart(edges);
     for bin in 0..edges.len() - 1 {
-        let _ = write!(table, "<tr><td>{}</td><td>{}</td>", short(edges[bin]), short(edges[bin + 1]));
+        let _ = write!(table, "<tr><td>{}</td><td>{}</td>", labels[bin], labels[bin + 1]);
         series.iter().for_each(|(_, shares)| {
             let _ = write!(table, "<td>{}</td>", percent(shares[bin]));
         });

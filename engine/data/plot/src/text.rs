@@ -119,13 +119,25 @@ pub fn short(number: f64) -> String {
     }
 }
 
+/// Numbers in their order as [`short`] has them, with more digits where neighbours would look the same.
+pub fn told_apart(numbers: &[f64]) -> Vec<String> {
+    let differ = |texts: &Vec<String>| texts.windows(2).all(|pair| pair[0] != pair[1]);
+    let texts: Vec<String> = numbers.iter().map(|number| short(*number)).collect();
+    if differ(&texts) {
+        return texts;
+    }
+    let to = |decimals: usize| numbers.iter().map(|number| trimmed(format!("{number:.decimals$}"))).collect();
+    (1..=9).map(to).find(differ).unwrap_or(texts)
+}
+
 /// A share as percent.
 pub fn percent(share: f64) -> String {
     format!("{:.1} %", 100.0 * share)
 }
 
 fn trimmed(text: String) -> String {
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text };
+    if text == "-0" { "0".to_owned() } else { text }
 }
 
 #[cfg(test)]
@@ -139,6 +151,15 @@ mod tests {
         let cases = [(0.0, "0"), (0.504, "0.5"), (12.34, "12.3"), (250.4, "250"), (12_345.0, "12.3K"), (2.4e6, "2.4M")];
         cases.into_iter().for_each(|(number, text)| assert_eq!(short(number), text));
         assert_eq!(short(-3.25e23), "-3.2e23");
+        assert_eq!((short(-0.0), short(-0.001)), ("0".to_owned(), "0".to_owned()));
+    }
+
+    #[test]
+    fn numbers_of_a_scale_are_told_apart() {
+        assert_eq!(told_apart(&[0.0, 10.0, 12.5]), ["0", "10", "12.5"]);
+        assert_eq!(told_apart(&[27.8, 27.805, 27.81]), ["27.8", "27.805", "27.81"]);
+        assert_eq!(told_apart(&[1234.2, 1234.4]), ["1234.2", "1234.4"]);
+        assert_eq!(told_apart(&[1.0, 1.0]), ["1", "1"]);
     }
 
     /// Texts that would do harm where they are not escaped.
