@@ -85,9 +85,13 @@ impl FlightSource for Ours {
     fn table(&self, name: &str, split: Option<&str>) -> Result<TableData> {
         let files = self.dataset.files(name)?;
         if files.is_empty() {
-            let folder = self.dataset.folder().display();
-            return Err(Diagnostic::new("dataset-none", Fault::Input, format!("`{folder}` has no table `{name}`"))
-                .hint("the tables are the folders in `data`"));
+            let folder = self.dataset.folder();
+            let listed = std::fs::read_dir(folder.join("data")).into_iter().flatten().flatten();
+            let mut tables: Vec<String> = listed.map(|it| it.file_name().to_string_lossy().into_owned()).collect();
+            tables.sort();
+            let refusal =
+                Diagnostic::new("dataset-none", Fault::Input, format!("`{}` has no table `{name}`", folder.display()));
+            return Err(refusal.hint(format!("the tables are the folders in `data`: {}", tables.join(", "))));
         }
         let is_wanted = |of: &str| split.is_none_or(|split| split == of || !matches!(of, "train" | "val" | "test"));
         let (wanted, others): (Vec<_>, Vec<_>) = files.into_iter().partition(|(of, _)| is_wanted(of));

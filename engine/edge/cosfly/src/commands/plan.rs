@@ -200,7 +200,8 @@ fn passing(recipe: &Recipe, plan: &Plan<'_>) -> String {
 fn predicted_s(plan: &Plan<'_>) -> (f64, bool) {
     let to_run: Vec<Option<f64>> =
         plan.stages.iter().filter(|stage| stage.to_run() > 0).map(|stage| stage.predicted_s).collect();
-    (to_run.iter().flatten().sum(), to_run.iter().all(Option::is_some))
+    // A sum of nothing is -0.0.
+    (0.0 + to_run.iter().flatten().sum::<f64>(), to_run.iter().all(Option::is_some))
 }
 
 /// Text about time and money.
