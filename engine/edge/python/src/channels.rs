@@ -38,3 +38,9 @@ pub fn sensors() -> Vec<SensorFacts> {
     };
     cosfly_sensors::ALL.iter().map(facts).collect()
 }
+
+/// Names of all weathers.
+#[pyfunction]
+pub fn weathers() -> Vec<&'static str> {
+    cosfly_materials::presets::PRESETS.to_vec()
+}

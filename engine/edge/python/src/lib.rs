@@ -25,6 +25,7 @@ fn _cosfly(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(calls::call, module)?)?;
     module.add_function(wrap_pyfunction!(channels::channels, module)?)?;
     module.add_function(wrap_pyfunction!(channels::sensors, module)?)?;
+    module.add_function(wrap_pyfunction!(channels::weathers, module)?)?;
     module.add_function(wrap_pyfunction!(images::decode_rgb, module)?)?;
     module.add_function(wrap_pyfunction!(images::shown, module)?)?;
     module.add_function(wrap_pyfunction!(errors::damaged_pack, module)?)?;

@@ -369,3 +369,15 @@ def test_options_of_a_reset_are_named():
     name = one.unwrapped.episodes()[0]
     assert one.reset(options={"episode": name})[1]["episode"] == name
     one.reset(options={}), many.reset(options={})
+    with pytest.raises(cosfly.WrongType, match="it is a name, such as"):
+        one.reset(options={"episode": 3})
+    with pytest.raises(cosfly.InvalidValue, match=f"no episode 'nobody'; there are {name}"):
+        one.reset(options={"episode": "nobody"})
+
+
+@pytest.mark.parametrize(
+    "options", [{"look": "ful"}, {"weather": "Sunny"}, {"size": "x"}, {"size": (8, 8, 8)}, {"step_s": "x"}, {"latency_s": -1}, {"jobs": "x"}, {"max_depth_m": "x"}]
+)
+def test_settings_are_refused_by_name_whether_they_are_used_or_not(options):
+    with pytest.raises(cosfly.Error, match=next(iter(options))):
+        gym.make(ID, recipe="small/recipe.toml", **options)

@@ -384,13 +384,15 @@ def export(
 
 @options(trajectory="`trajectory_id`")
 def preview(
-    dataset: PathLike, trajectory_id: Optional[str] = None, *, frames: Optional[str] = None,
+    dataset: PathLike, trajectory_id: Optional[str] = None, *, frames: Union[None, str, Sequence[int]] = None,
     out: Optional[PathLike] = None, progress: Progress = True,
 ) -> PreviewResult:  # fmt: skip
     """Draw a flight: contact sheet, animated clip, plan of the town with the paths. Notebooks show the result.
 
-    ``frames`` is like ``"0,50,100"`` or ``"0..200:10"``; the pictures go to ``out``, beside the dataset by default.
+    ``frames`` is like ``"0,50,100"`` or ``"0..200:10"``, or a list of numbers; the pictures go to ``out``, beside the dataset by default.
     """
+    if frames is not None and not isinstance(frames, str):
+        frames = ",".join(map(str, frames)) if hasattr(frames, "__iter__") else str(frames)
     arguments = ["preview", path_of(dataset), "--json", *_options(trajectory=trajectory_id, frames=frames, out=out)]
     _, text, _ = _call(arguments, b"", progress)
     found = json.loads(text)

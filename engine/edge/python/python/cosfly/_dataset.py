@@ -15,7 +15,7 @@ import numpy as np
 from . import _cosfly
 from ._calls import PathLike
 from ._cosfly import Reader, Table
-from ._errors import InvalidValue, NotFound, OutOfRange, WrongType, names_of, options, path_of
+from ._errors import InvalidValue, NotFound, OutOfRange, WrongType, names_of, options, path_of, size_of
 from ._show import Frame, Town, Trajectory
 
 CHANNELS = ("rgb", "depth")
@@ -91,7 +91,7 @@ class Dataset:
     ):
         self.path = Path(path_of(path))
         self.split, self.role = split, role
-        self.channels, self.size = CHANNELS if channels is None else names_of("channels", channels), size
+        self.channels, self.size = CHANNELS if channels is None else names_of("channels", channels), None if size is None else size_of(size)
         self._opened: Tuple[int, Optional[Reader]] = (-1, None)
         self.jobs = _whole("jobs", jobs, 1)
         if split not in (None, "train", "val", "test"):
@@ -99,7 +99,7 @@ class Dataset:
         if role not in (None, *ROLES):
             raise InvalidValue(f"the role is {role!r}; roles are 'expert' and 'perturbed'")
         self.identity = self._reader.identity
-        self._reader.images([], list(self.channels), size, self.jobs)  # refuses names and sizes before the first sample
+        self._reader.images([], list(self.channels), self.size, self.jobs)  # refuses names and sizes before the first sample
         ids = self._reader.trajectory_ids
         if split and not any(self._reader.splits):
             raise InvalidValue(f"the data in {self.path} state no splits; leave out `split`")
@@ -140,7 +140,7 @@ class Dataset:
         size: Optional[Tuple[int, int]] = None,
     ) -> Frame:  # fmt: skip
         """Images of one frame, by channel: a dictionary that notebooks show."""
-        images = self._images([(trajectory_id, frame)], names_of("channels", channels or self.channels), size or self.size)
+        images = self._images([(trajectory_id, frame)], names_of("channels", channels or self.channels), size_of(size) if size else self.size)
         return Frame({name: arrays[0] for name, arrays in images.items()})
 
     def trajectory(self, trajectory_id: str) -> Trajectory:
@@ -205,6 +205,7 @@ class Dataset:
         training run stopped. Shards have equal lengths: the last samples are left out where they do not divide.
         """
         first, count = _shard(shard)
+        seed, epoch = _whole("seed", seed, 0), _whole("epoch", epoch, 0)
         order = np.random.Generator(np.random.PCG64([seed, epoch])).permutation(len(self))
         return order[: len(self) // count * count][first::count]
 
@@ -507,7 +508,11 @@ def _index(what: str, index: Any) -> int:
 
 def _shard(shard: Tuple[int, int]) -> Tuple[int, int]:
     """Number of a shard and of all shards."""
-    first, count = (_whole("shard", part, 0) for part in shard)
+    try:
+        first, count = shard
+    except (TypeError, ValueError):
+        raise WrongType(f"`shard` is {shard!r:.60}; it is (k, n), whole numbers with 0 <= k < n") from None
+    first, count = _whole("shard", first, 0), _whole("shard", count, 0)
     if not first < count:
         raise InvalidValue(f"the shard is {shard}; it must be (k, n) with 0 <= k < n")
     return first, count

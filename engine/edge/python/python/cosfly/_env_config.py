@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Mapping, NamedTuple, Sequence
 
 from . import _cosfly
 from ._calls import settings_of
-from ._errors import InvalidValue, WrongType, names_of, path_of
+from ._errors import InvalidValue, WrongType, names_of, number_of, path_of, size_of
 
 if TYPE_CHECKING:
     from typing import TypedDict
@@ -66,6 +66,8 @@ CHANNELS: dict[str, Channel] = {facts[0]: Channel(*facts) for facts in _cosfly.c
 SENSORS: dict[str, Sensor] = {name: Sensor(name, doc, dict(quantities)) for name, doc, quantities in _cosfly.sensors()}
 """All sensors that are no cameras, by name."""
 OBSERVATIONS = ("state", *CHANNELS, *SENSORS)
+LOOKS = ("simple", "full")
+"""Looks of colours."""
 _LARGEST_SIZE = 2048
 _FORMER = {"overrides": "set", "threads": "jobs"}
 
@@ -104,8 +106,15 @@ class EnvConfig:
         settings_of(self.set)
         path_of(self.recipe, "the recipe of environments")
         object.__setattr__(self, "obs", names_of("obs", self.obs))
-        if self.jobs is not None and not 1 <= operator.index(self.jobs) <= 1024:
-            raise InvalidValue(f"jobs is {self.jobs}; it is 1 to 1024")
+        if self.jobs is not None and not (hasattr(self.jobs, "__index__") and 1 <= operator.index(self.jobs) <= 1024):
+            raise InvalidValue(f"jobs is {self.jobs!r}; it is a whole number from 1 to 1024")
+        for name in ("max_depth_m", "step_s", "latency_s"):
+            if (value := getattr(self, name)) is not None:
+                number_of(name, value)
+        if self.look not in LOOKS:
+            raise InvalidValue(f"look is {self.look!r}; it is one of {', '.join(LOOKS)}")
+        if self.weather is not None and self.weather not in _cosfly.weathers():
+            raise InvalidValue(f"weather is {self.weather!r}; it is one of {', '.join(_cosfly.weathers())}")
         names = tuple(self.obs)
         if not names or not {*names} <= {*OBSERVATIONS} or len({*names}) < len(names):
             raise InvalidValue(f"obs is {names}; it names one or several of {', '.join(OBSERVATIONS)}, each once; channels of films, such as flow_forward, are not seen while flying")
@@ -132,8 +141,7 @@ class EnvConfig:
     @property
     def sides(self) -> tuple[int, int]:
         """Width and height of pictures, pixels."""
-        width, height = self.size if isinstance(self.size, (tuple, list)) else (self.size, self.size)
-        return int(width), int(height)
+        return size_of((self.size, self.size) if hasattr(self.size, "__index__") else self.size)
 
     @property
     def channels(self) -> list[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import functools
 import inspect
+import operator
 import os
 import re
 import warnings
@@ -106,6 +107,22 @@ def names_of(what: str, given: Any) -> Tuple[str, ...]:
         if not isinstance(name, str):
             raise WrongType(f"`{what}` has {name!r:.60} ({type(name).__name__}) in it; it is a name or a list of names")
     return names
+
+
+def size_of(size: Any) -> Tuple[int, int]:
+    """Width and height of pictures, pixels."""
+    try:
+        width, height = (operator.index(side) for side in size)
+    except (TypeError, ValueError):
+        raise WrongType(f"`size` is {size!r:.60}; it is (width, height), whole numbers of pixels") from None
+    return width, height
+
+
+def number_of(name: str, value: Any) -> float:
+    """A number; what is none is refused."""
+    if isinstance(value, (str, bytes)) or not hasattr(value, "__float__"):
+        raise WrongType(f"`{name}` is {value!r:.60} ({type(value).__name__}); it is a number")
+    return float(value)
 
 
 def keys_of(what: str, given: Any, allowed: Sequence[str], strangers: bool = False) -> Mapping[str, Any]:

@@ -10,6 +10,7 @@ rate (degrees/s). `STATE` and `ACTION` name the numbers with their units. The bo
 
 from __future__ import annotations
 
+import difflib
 import operator
 import os
 import secrets
@@ -27,7 +28,7 @@ from gymnasium.vector.utils import batch_space
 from . import _cosfly
 from ._cosfly import VectorEnvironment
 from ._env_config import CHANNELS, OBSERVATIONS, SENSORS, EnvConfig
-from ._errors import InvalidValue, keys_of
+from ._errors import InvalidValue, WrongType, keys_of
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -136,6 +137,16 @@ def _flock(
     config: EnvConfig, count: int, mode: AutoresetMode, is_team: bool = False
 ) -> tuple[VectorEnvironment, _Observations]:
     return VectorEnvironment(config, count, _MODES[mode], is_team), _Observations(config)
+
+
+def _begin(flock: VectorEnvironment, episode: Any) -> None:
+    """Begins an episode by its name."""
+    if not isinstance(episode, str):
+        raise WrongType(f"the episode is {episode!r:.60} ({type(episode).__name__}); it is a name, such as {flock.episodes()[0]!r}")
+    if episode not in (known := flock.episodes()):
+        near = difflib.get_close_matches(episode, known, 3) or known[:3]
+        raise InvalidValue(f"there is no episode {episode!r}; there are {', '.join(near)}{' ...' if len(near) < len(known) else ''}")
+    flock.begin_episode(0, episode)
 
 
 _NOT_INFO = {"features", "rewards", "terminated", "truncated", *OBSERVATIONS}
@@ -281,7 +292,7 @@ class Track(gymnasium.Env):
             self._flock.reset(begun, [True])
         else:
             self._flock.seed(begun)
-            self._flock.begin_episode(0, episode)
+            _begin(self._flock, episode)
         self._is_reset = True
         told = self._flock.outputs(True)
         info = self._info(told)

@@ -10,6 +10,7 @@ import os
 from pathlib import Path
 from typing import Any, Mapping
 
+from ._env_config import LOOKS
 from ._errors import InvalidValue, keys_of
 
 KEY = "cosfly"
@@ -34,9 +35,6 @@ ACTIONS = {
     "deltas-body": "m, degrees",
 }
 """Kinds of actions, with their units."""
-
-LOOKS = ("simple", "full")
-"""Looks of colours."""
 
 FED = ("observation", "unit", "history")
 """Keys of an input that is more than the name of an observation."""

@@ -21,7 +21,7 @@ from pettingzoo import ParallelEnv
 
 from ._env_config import EnvConfig
 from ._errors import InvalidValue, keys_of
-from .gym import _flock, _is_info, _rows, _seed, _Streams, action_space
+from .gym import _begin, _flock, _is_info, _rows, _seed, _Streams, action_space
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -74,7 +74,7 @@ class ParallelTrack(ParallelEnv):  # type: ignore[misc]
             self._flock.reset(begun, None)
         else:
             self._flock.seed(begun)
-            self._flock.begin_episode(0, episode)
+            _begin(self._flock, episode)
         self._is_reset = True
         self.agents = list(self.possible_agents)
         told = self._told()
