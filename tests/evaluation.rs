@@ -89,7 +89,7 @@ fn an_absurd_number_is_a_malformed_row_and_writes_small_reports() {
     std::fs::write(street.path().join("huge.jsonl"), text.concat()).expect("writable");
     let printed = eval(&street, &["huge.jsonl"]);
     assert_eq!(printed.code, Some(1), "{}", printed.stderr);
-    assert!(printed.stdout.contains("**Partial: 1 of 3 windows have no prediction."), "{}", printed.stdout);
+    assert!(printed.stdout.contains("**Partial: 1 of 3 windows without a prediction."), "{}", printed.stdout);
     assert!(
         printed.stdout.contains("line 1: `dx` of waypoint 1 is larger than 1e9 in magnitude: 1e23"),
         "{}",
@@ -110,7 +110,7 @@ fn a_part_of_the_windows_is_no_score_of_the_dataset() {
     let splits = ["--split", "train", "--split", "val"];
     let printed = eval(&street, &[&["one.jsonl"][..], &splits].concat());
     assert_eq!(printed.code, Some(1), "{}", printed.stderr);
-    assert!(printed.stdout.contains("**Partial: 2 of 3 windows have no prediction."), "{}", printed.stdout);
+    assert!(printed.stdout.contains("**Partial: 2 of 3 windows without a prediction."), "{}", printed.stdout);
     assert_eq!(report(&street.path().join("one-evaluation"))["is_partial"], true);
     let filled = eval(&street, &[&["one.jsonl", "--missing-as-zero"][..], &splits].concat());
     assert_eq!(filled.code, Some(0), "{}", filled.stderr);

@@ -2,7 +2,7 @@
 
 use crate::folder::OutFolder;
 use crate::source::Source;
-use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_diagnose::{Diagnostic, Result, counted};
 use cosfly_domain::{Lens, LensModel};
 use cosfly_plot::text::{markdown, markdown_code};
 use cosfly_read::foreign_rows;
@@ -37,9 +37,10 @@ impl ExportCard {
         let frames: usize = flights.iter().map(|flight| flight.frames).sum();
         let _ = writeln!(
             text,
-            "Written by `cosfly export` {} from {} flights with {frames} frames of the dataset {}.\n",
+            "Written by `cosfly export` {} from {} with {} of the dataset {}.\n",
             env!("CARGO_PKG_VERSION"),
-            flights.len(),
+            counted(flights.len(), "flight"),
+            counted(frames, "frame"),
             markdown_code(&name)
         );
         text.push_str(&self.body);

@@ -2,6 +2,7 @@
 
 use crate::clip::ramp;
 use crate::ground::SeenGround;
+use cosfly_diagnose::counted;
 use cosfly_frames::{DVec3, real};
 use cosfly_plot::canvas::{Canvas, ChartColour, INK, Point, WHITE, text_width};
 use cosfly_read::{FrameRow, LoggedBox, PublishedFlight};
@@ -152,12 +153,15 @@ impl Plan<'_> {
         canvas.fill([0, 0], [width, HEADER as i64], [244, 243, 240], 1.0);
         canvas.fill([0, bottom], [width, LEGEND as i64], [244, 243, 240], 1.0);
         let end = canvas.text(8, 10, 2, INK, &self.flight.trajectory_id);
-        let twins = self.family.len().saturating_sub(1);
+        let twins = match self.family.len().saturating_sub(1) {
+            0 => String::new(),
+            twins => format!("  (thick: expert; thin: perturbed, {twins})"),
+        };
         let seen: f64 = self.family.iter().filter(|(flight, _)| *flight == self.flight).map(|(_, it)| mean(it)).sum();
         let about = format!(
-            "{}  {} frames, {:.1} s  visible {:.0} %  (thick: expert; thin: perturbed, {twins})",
+            "{}  {}, {:.1} s  visible {:.0} %{twins}",
             self.flight.town,
-            self.flight.frames,
+            counted(self.flight.frames, "frame"),
             self.flight.frames.saturating_sub(1) as f64 * self.flight.dt_s,
             100.0 * seen
         );

@@ -3,6 +3,7 @@
 
 use crate::shot::ClipShot;
 use cosfly_channel_pictures::false_colours::DepthScale;
+use cosfly_diagnose::counted;
 use cosfly_plot::canvas::{Canvas, INK, WHITE};
 use cosfly_read::PublishedFlight;
 
@@ -54,8 +55,13 @@ impl<'a> Sheet<'a> {
         let end = sheet.text(GAP as i64 + 2, 10, 2, INK, &flight.trajectory_id);
         let (fov_deg, camera) = (flight.lens.span_rad(&flight.camera).to_degrees(), &flight.camera);
         let about = format!(
-            "{}  {}  {} frames, {} s apart  {} x {}, {fov_deg:.0} degrees",
-            flight.town, flight.weather, flight.frames, flight.dt_s, camera.width, camera.height
+            "{}  {}  {}, {} s apart  {} x {}, {fov_deg:.0} degrees",
+            flight.town,
+            flight.weather,
+            counted(flight.frames, "frame"),
+            flight.dt_s,
+            camera.width,
+            camera.height
         );
         sheet.text(end + 14, 14, 1, [90, 92, 96], &about);
         let mut y = HEADER;

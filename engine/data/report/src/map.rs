@@ -3,6 +3,7 @@
 use crate::model::{BoxSketch, TownSketch};
 use crate::moments;
 use crate::sketch::FlightSketch;
+use cosfly_diagnose::counted;
 use cosfly_plot::statistics;
 use cosfly_plot::strip::class_of;
 use cosfly_plot::text::escaped;
@@ -27,9 +28,9 @@ pub fn draw(town: &TownSketch, flights: &[&FlightSketch], all: u64) -> String {
         moments::spread(drawn.len(), MOST_FLIGHTS).into_iter().map(|at| drawn[at]).collect();
     let Some(sheet) = Sheet::around(&chosen) else { return String::new() };
     let name = format!(
-        "Map of {} with {} flights, coloured by visibility of their targets; north is up",
+        "Map of {} with {}, coloured by visibility of their targets; north is up",
         town.name,
-        chosen.len()
+        counted(chosen.len(), "flight")
     );
     let mut svg = format!(
         "<svg viewBox=\"0 0 {WIDTH} {:.0}\" role=\"img\" aria-label=\"{}\"><rect class=\"land\" width=\"100%\" height=\"100%\"/>",
@@ -42,9 +43,8 @@ pub fn draw(town: &TownSketch, flights: &[&FlightSketch], all: u64) -> String {
     sheet.scale_bar(&mut svg);
     svg.push_str("</svg>");
     let shown = match (chosen.len() as u64, all.max(chosen.len() as u64)) {
-        (some, all) if some < all => format!("{some} of {all} {role} flights"),
-        (1, _) => format!("1 {role} flight"),
-        (all, _) => format!("{all} {role} flights"),
+        (some, all) if some < all => format!("{some} of {}", counted(all, &format!("{role} flight"))),
+        (all, _) => counted(all, &format!("{role} flight")),
     };
     let mean = chosen.iter().map(|flight| flight.mean_visible()).sum::<f64>() / chosen.len() as f64;
     format!(

@@ -1,7 +1,7 @@
 //! Shares asked for and shares reached, with the reasons for differences.
 
 use super::facts::FlightFacts;
-use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_diagnose::{Diagnostic, Fault, counted};
 use cosfly_schema::Split;
 use cosfly_schema::config::{SplitBy, SplitShares};
 use std::collections::{BTreeMap, BTreeSet};
@@ -105,10 +105,11 @@ impl Balance {
 
     /// Why shares are missed.
     fn reason(&self) -> String {
-        let largest = format!("the largest of {} groups has {} of the walks", self.groups, percent(self.largest.1));
+        let largest =
+            format!("the largest of {} has {} of the walks", counted(self.groups, "group"), percent(self.largest.1));
         match self.by {
             _ if 2 * self.named > self.flights => {
-                format!("`splits.towns` names the split of {} of {} flights", self.named, self.flights)
+                format!("`splits.towns` names the split of {} of {}", self.named, counted(self.flights, "flight"))
             }
             SplitBy::Area => "no lines with guard bands give these shares for the walks of all towns".to_owned(),
             SplitBy::Town => format!("whole towns are drawn; {largest}"),
@@ -122,7 +123,8 @@ impl Balance {
         let of = |at: usize| {
             format!("{} of {} in `{}`", percent(self.reached[at]), percent(self.asked[at]), Split::ALL[at].name())
         };
-        format!("shares reached: {}, {}, {}; {} groups of {} walks", of(0), of(1), of(2), self.groups, self.walks)
+        let (groups, walks) = (counted(self.groups, "group"), counted(self.walks, "walk"));
+        format!("shares reached: {}, {}, {}; {groups} of {walks}", of(0), of(1), of(2))
     }
 
     /// Refuses to publish where a share is missed by more than `splits.max_share_error`.

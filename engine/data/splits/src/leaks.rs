@@ -5,7 +5,7 @@ use super::facts::{FlightFacts, published_windows};
 use super::overlap::{Overlaps, overlaps};
 use super::places::kind_of;
 use super::route;
-use cosfly_diagnose::{Diagnostic, Fault, Result, Stop};
+use cosfly_diagnose::{Diagnostic, Fault, Result, Stop, counted};
 use cosfly_read::PublishedDataset;
 use cosfly_schema::config::{DatasetConfig, OverlapDirection, SplitBy, SplitShares};
 use std::collections::{BTreeMap, BTreeSet};
@@ -244,8 +244,10 @@ impl Leaks {
                 continue;
             }
             let message = format!(
-                "{count} windows of {} are windows of {}: from frame {frame_of_a} and from frame {frame_of_b} on",
+                "{} of {} {} of {}: from frame {frame_of_a} and from frame {frame_of_b} on",
+                counted(count, "window"),
                 named(a),
+                if count == 1 { "is one" } else { "are windows" },
                 named(b)
             );
             self.add("split-window", b, message);

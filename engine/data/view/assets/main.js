@@ -16,6 +16,9 @@ const row = (name, value) => {
   return line;
 };
 
+// A number of things: `1 flight`, `2 flights`.
+const counted = (number, noun) => `${number} ${noun}${number === 1 ? "" : "s"}`;
+
 async function start() {
   // The token has done its work: it must not stay in the address.
   if (location.search) history.replaceState(null, "", location.pathname + location.hash);
@@ -26,7 +29,7 @@ async function start() {
   $("name").textContent = about.name;
   const left = about.shown < about.flights ? `, the first ${about.shown} in the list` : "";
   const rejected = about.rejected ? `, ${about.rejected} without a flight` : "";
-  $("about").textContent = `${about.kind}: ${about.flights} flights${left}${rejected}` + (source.isExported ? ", an exported page" : "");
+  $("about").textContent = `${about.kind}: ${counted(about.flights, "flight")}${left}${rejected}` + (source.isExported ? ", an exported page" : "");
   state.index = await source.get("/api/index");
   list = new FlightList(state.index, flight => choose(flight));
   for (const column of state.index.columns) {
@@ -45,7 +48,7 @@ function filter() {
     const lets = filterOf($("query").value, state.index);
     list.show(lets, $("sort").value);
     words.className = "";
-    words.textContent = list.order.length ? `${list.order.length} of ${state.index.flights} flights`
+    words.textContent = list.order.length ? `${list.order.length} of ${counted(state.index.flights, "flight")}`
       : state.index.flights ? "no flight is like this" : withoutFlights();
   } catch (error) {
     words.className = "wrong";
@@ -302,7 +305,7 @@ async function progress() {
     showFilms(films);
     const left = stages.reduce((sum, stage) => sum + stage.to_run, 0);
     $("ready").textContent = !stages.length ? "nothing is made yet: start `cosfly run`"
-      : left ? `${left} tasks are left` : "everything is made: reload to see its flights once `cosfly run` has ended";
+      : left ? left === 1 ? "1 task is left" : `${left} tasks are left` : "everything is made: reload to see its flights once `cosfly run` has ended";
   } catch (error) {
     $("ready").textContent = error.message;
   }

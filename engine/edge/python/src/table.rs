@@ -1,7 +1,7 @@
 //! A table of a dataset: columns as numpy arrays, the whole as an Arrow stream.
 
 use crate::errors::{raised, refused};
-use cosfly_diagnose::Result;
+use cosfly_diagnose::{Result, counted};
 use cosfly_load::FlightSource;
 use cosfly_read::columns::{Column, TableData};
 use numpy::{PyArray1, PyArrayMethods, ToPyArray};
@@ -71,7 +71,7 @@ impl Table {
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        Ok(format!("<cosfly.Table of {} rows: {}>", self.__len__(py)?, self.columns(py)?.join(", ")))
+        Ok(format!("<cosfly.Table of {}: {}>", counted(self.__len__(py)?, "row"), self.columns(py)?.join(", ")))
     }
 }
 

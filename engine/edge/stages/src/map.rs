@@ -3,7 +3,7 @@
 use crate::ports::TOWN;
 use crate::single;
 use cosfly_blobs::OutputSink;
-use cosfly_diagnose::{ParameterError, Result};
+use cosfly_diagnose::{ParameterError, Result, counted};
 use cosfly_experts::artifacts;
 use cosfly_experts::map_files::{ReadMap, checked, read_files, refusal, unreadable};
 use cosfly_frames::Seed;
@@ -114,7 +114,7 @@ impl Stage for MapStage {
         artifacts::TOWN.put(outputs, &town)?;
         let report = &town.simplification;
         let mut notes = std::collections::BTreeMap::from([
-            ("obstacles".to_owned(), format!("{} boxes", town.obstacles.len())),
+            ("obstacles".to_owned(), counted(town.obstacles.len(), "box")),
             (
                 "planning boxes".to_owned(),
                 format!(
@@ -127,7 +127,7 @@ impl Stage for MapStage {
                     report.tolerance_m
                 ),
             ),
-            ("walkable".to_owned(), format!("{} polygons", town.walkable.len())),
+            ("walkable".to_owned(), counted(town.walkable.len(), "polygon")),
         ]);
         if !town.synthetic.notes.is_empty() {
             notes.insert("synthetic".to_owned(), town.synthetic.notes.join("; "));

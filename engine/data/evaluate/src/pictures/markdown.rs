@@ -47,8 +47,9 @@ fn partial(evaluation: &PictureEvaluation) -> String {
         (false, _) => String::new(),
         (true, 0) => "**Empty: there is no detection. Everything counts as missed.**\n\n".to_owned(),
         (true, _) => format!(
-            "**Partial: {missing} of {all} frames have no prediction. The scores are of the others alone, and no scores of this \
-             dataset.**\n\n"
+            "**Partial: {missing} of {} without a prediction. The scores are of the others alone, and no scores of this \
+             dataset.**\n\n",
+            counted(all, "frame")
         ),
     }
 }
@@ -57,15 +58,15 @@ fn facts(evaluation: &PictureEvaluation) -> String {
     let (settings, dataset) = (&evaluation.settings, &evaluation.dataset);
     let (files, frames) = (&evaluation.files, &evaluation.frames);
     let unit = match settings.kind {
-        PictureKind::Depth | PictureKind::Semantic => "pictures",
-        PictureKind::Boxes | PictureKind::Masks => "rows",
-        PictureKind::Tracks | PictureKind::Target => "files",
+        PictureKind::Depth | PictureKind::Semantic => "picture",
+        PictureKind::Boxes | PictureKind::Masks => "row",
+        PictureKind::Tracks | PictureKind::Target => "file",
     };
     let mut text = format!(
-        "{} of {} frames ({} flights, split {}){}.\n",
+        "{} of {} ({}, split {}){}.\n",
         frames.scored,
-        frames.expected,
-        dataset.flights,
+        counted(frames.expected, "frame"),
+        counted(dataset.flights, "flight"),
         markdown(&dataset.splits.join(" and ")),
         if frames.without_prediction > 0 {
             format!(", {} without a prediction left out", counted(frames.without_prediction, "frame"))
@@ -75,16 +76,21 @@ fn facts(evaluation: &PictureEvaluation) -> String {
     );
     let _ = writeln!(
         text,
-        "{} {unit}: {} scored, {} malformed, {} of other splits, frames or classes; {} other files were passed over.",
-        files.read, files.scored, files.malformed, files.elsewhere, files.passed_over
+        "{}: {} scored, {} malformed, {} of other splits, frames or classes; {} passed over.",
+        counted(files.read, unit),
+        files.scored,
+        files.malformed,
+        files.elsewhere,
+        counted(files.passed_over, "other file")
     );
     if settings.kind == PictureKind::Depth {
         let _ = writeln!(text, "Pixels count whose true depth is at most {} m.", settings.max_depth_m);
     }
     let _ = writeln!(
         text,
-        "In brackets: 95 % intervals, {} resamples of {} groups of trajectories (one pedestrian each).",
-        settings.resamples, dataset.clusters
+        "In brackets: 95 % intervals, {} of {} of trajectories (one pedestrian each).",
+        counted(settings.resamples, "resample"),
+        counted(dataset.clusters, "group")
     );
     text
 }

@@ -4,6 +4,7 @@ use super::result::{Evaluation, MethodReport, RowFacts, metric};
 use super::score::Scores;
 use super::table::{score, table, title};
 use crate::strata::STRATA;
+use cosfly_diagnose::counted;
 use cosfly_metrics::baselines::Anchor;
 use cosfly_metrics::{METRICS, Metric};
 use cosfly_plot::text::{markdown, markdown_code, markdown_words};
@@ -31,8 +32,9 @@ fn report(evaluation: &Evaluation) -> String {
         let (missing, all) = (evaluation.windows.without_prediction, evaluation.windows.expected);
         let _ = writeln!(
             text,
-            "**Partial: {missing} of {all} windows have no prediction. The scores are of the others alone, and no scores of \
-             this dataset.** `--missing-as-zero` counts them as standing still.\n"
+            "**Partial: {missing} of {} without a prediction. The scores are of the others alone, and no scores of \
+             this dataset.** `--missing-as-zero` counts them as standing still.\n",
+            counted(all, "window")
         );
     }
     text.push_str(&facts(evaluation));
@@ -70,30 +72,30 @@ fn facts(evaluation: &Evaluation) -> String {
     let shape = &settings.window;
     let _ = writeln!(
         text,
-        "{} of {} windows ({} flights, split {}), {} frames in, {} waypoints out, every {} frames.",
+        "{} of {} ({}, split {}), {} in, {} out, {}.",
         windows.scored,
-        windows.expected,
-        dataset.flights,
+        counted(windows.expected, "window"),
+        counted(dataset.flights, "flight"),
         markdown(&dataset.splits.join(" and ")),
-        shape.history,
-        shape.horizon,
-        shape.stride
+        counted(shape.history, "frame"),
+        counted(shape.horizon, "waypoint"),
+        if shape.stride == 1 { "every frame".to_owned() } else { format!("every {} frames", shape.stride) }
     );
     if let Some(rows) = &evaluation.rows {
         let _ = writeln!(
             text,
-            "{} rows: {} scored, {} malformed, {} of other splits; {} windows have no prediction{}.",
-            rows.read,
+            "{}: {} scored, {} malformed, {} of other splits; {} without a prediction{}.",
+            counted(rows.read, "row"),
             rows.scored,
             rows.malformed,
             rows.elsewhere,
-            windows.without_prediction,
+            counted(windows.without_prediction, "window"),
             if windows.without_prediction == 0 {
                 ""
             } else if settings.missing_as_zero {
-                " and count as predict-zero"
+                ", counted as predict-zero"
             } else {
-                " and are left out"
+                ", left out"
             }
         );
     }
@@ -159,8 +161,12 @@ fn strata(method: &MethodReport, evaluation: &Evaluation) -> String {
 
 fn malformed(rows: &RowFacts) -> String {
     let kinds: Vec<String> = rows.kinds.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
-    let mut text =
-        format!("\n## Malformed rows\n\n{} of {} rows: {}.\n\n", rows.malformed, rows.read, kinds.join(", "));
+    let mut text = format!(
+        "\n## Malformed rows\n\n{} of {}: {}.\n\n",
+        rows.malformed,
+        counted(rows.read, "row"),
+        kinds.join(", ")
+    );
     for problem in rows.problems.iter().take(SHOWN) {
         let _ = writeln!(text, "- line {}: {}", problem.line, markdown_words(&problem.reason));
     }

@@ -3,6 +3,7 @@
 use crate::model::Report;
 use crate::sketch::{FlightSketch, TextSketch};
 use cosfly_captions::{Diversity, Language, coverage, diversity};
+use cosfly_diagnose::counted;
 use cosfly_plot::text::{escaped, grouped, percent};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -23,10 +24,10 @@ pub fn section(report: &Report) -> String {
     }
     let _ = write!(
         html,
-        "<p class=\"note\">Instructions and goals of the {} flights that this page draws. Distinct-n: different runs of n words (characters in Chinese) of all; \
+        "<p class=\"note\">Instructions and goals of {} that this page draws. Distinct-n: different runs of n words (characters in Chinese) of all; \
          self-BLEU: likeness of a text to its neighbours, 1 for all alike. A text singles the target out where it names the clothes and nobody \
          else who is seen in the flight wears the same. Captions were compared with the facts; goals of kind negative do not fit on purpose.</p>",
-        drawn.len()
+        counted(drawn.len(), "flight")
     );
     html
 }
@@ -108,10 +109,10 @@ fn tiles(texts: &[&TextSketch], figures: &Diversity) -> Vec<(&'static str, Strin
         ("Different texts", grouped(figures.different_texts as u64), String::new()),
         ("Words of a text", format!("{:.1}", figures.mean_words), format!("{least} to {most}")),
         ("Distinct-1", format!("{:.3}", figures.distinct_1), String::new()),
-        ("Distinct-2", format!("{:.3}", figures.distinct_2), format!("{} pairs", grouped(figures.pairs as u64))),
+        ("Distinct-2", format!("{:.3}", figures.distinct_2), counted(grouped(figures.pairs as u64), "pair")),
         ("Self-BLEU", format!("{:.3}", figures.self_bleu), "against neighbouring texts".to_owned()),
         ("Single the target out", percent(singled), "by clothes that nobody else seen wears".to_owned()),
-        ("Texts of a teacher", grouped(taught), format!("{} answers refused", grouped(refused))),
+        ("Texts of a teacher", grouped(taught), format!("{} refused", counted(grouped(refused), "answer"))),
     ]
 }
 

@@ -1,6 +1,7 @@
 //! Results of other planners for the same walks.
 
 use crate::model::{KnownNumber, PlannerRow, Report};
+use cosfly_diagnose::counted;
 use cosfly_plot::text::{escaped, percent, short};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -61,10 +62,10 @@ fn table(rows: &[PlannerRow]) -> String {
         let reason = row.refusal.as_deref().map_or(String::new(), |reason| format!(": {}", escaped(reason)));
         let _ = write!(
             text,
-            "<p class=\"note\">{} found {} of {} flights; its numbers are of these{reason}</p>",
+            "<p class=\"note\">{} found {} of {}; its numbers are of these{reason}</p>",
             named(&row.planner),
             row.planned,
-            row.asked
+            counted(row.asked, "flight")
         );
     }
     text

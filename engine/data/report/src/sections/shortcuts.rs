@@ -1,6 +1,7 @@
 //! Signs that give the target away: the middle of the picture, size, and looks.
 
 use crate::model::Report;
+use cosfly_diagnose::counted;
 use cosfly_metrics::shortcuts::{Probe, ShortcutFigures};
 use cosfly_plot::text::{escaped, grouped, percent};
 use std::fmt::Write;
@@ -47,7 +48,7 @@ fn rows(figures: &ShortcutFigures) -> Vec<(&'static str, String, String)> {
         }
     }
     let Some(looks) = figures.looks else { return rows };
-    let people = format!("{} targets, {} bystanders", figures.targets, figures.others);
+    let people = format!("{}, {}", counted(figures.targets, "target"), counted(figures.others, "bystander"));
     for (name, auc) in [
         ("Colourfulness of tops, AUC", looks.colourfulness),
         ("Brightness of tops, AUC", looks.brightness),
@@ -65,7 +66,7 @@ fn rows(figures: &ShortcutFigures) -> Vec<(&'static str, String, String)> {
 /// The error of a figure in words.
 fn error_of(standard_error: Option<f64>, flights: u64) -> String {
     match standard_error {
-        Some(error) => format!("\u{b1} {error:.2} over {} flights{}", grouped(flights), few(error)),
+        Some(error) => format!("\u{b1} {error:.2} over {}{}", counted(grouped(flights), "flight"), few(error)),
         None => "of one flight: too few to tell".to_owned(),
     }
 }

@@ -4,6 +4,7 @@ use super::maps::legend;
 use crate::model::Report;
 use crate::moments::spread;
 use crate::sketch::FlightSketch;
+use cosfly_diagnose::counted;
 use cosfly_plot::strip::strip;
 use cosfly_plot::text::{escaped, percent, short};
 use std::fmt::Write;
@@ -41,7 +42,7 @@ pub fn section(report: &Report) -> String {
     text.push_str("</tbody></table></div>");
     let all = report.figures.all();
     if (rows.len() as u64) < all {
-        let _ = write!(text, "<p class=\"note\">{} of {all} flights.</p>", rows.len());
+        let _ = write!(text, "<p class=\"note\">{} of {}.</p>", rows.len(), counted(all, "flight"));
     }
     text
 }

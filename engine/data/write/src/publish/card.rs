@@ -3,7 +3,7 @@
 use super::citation::citation;
 use super::summary::Summary;
 use super::viewers;
-use cosfly_diagnose::visible_text;
+use cosfly_diagnose::{counted, visible_text};
 use cosfly_plot::text::{markdown, markdown_code, markdown_words, quoted};
 use cosfly_schema::config::{DatasetConfig, OWN_LICENSE};
 use cosfly_schema::extras::{self, ExtraShape, ExtraSummary};
@@ -158,11 +158,14 @@ fn figures(config: &DatasetConfig, summary: &Summary) -> String {
         if languages.is_empty() { "none: no captions".into() } else { languages.join(", ") },
     );
     for (town, figures) in &summary.towns {
-        row(&format!("town {}", markdown_code(town)), format!("{} flights", figures.flights));
+        row(&format!("town {}", markdown_code(town)), counted(figures.flights, "flight"));
     }
     for split in cosfly_schema::Split::ALL {
         let (flights, frames) = summary.splits.get(split.name()).copied().unwrap_or_default();
-        row(&format!("split `{}`", split.name()), format!("{flights} flights, {frames} frames"));
+        row(
+            &format!("split `{}`", split.name()),
+            format!("{}, {}", counted(flights, "flight"), counted(frames, "frame")),
+        );
     }
     text.push_str("\nFlights behind one pedestrian, and behind pedestrians whose ways overlap, are always in the same split (`splits.json`). `report/index.html` shows all of this as a page: maps, \
          curves, distributions, worst cases with their pictures.\n\n");
@@ -293,8 +296,9 @@ fn extra_section(kept: &ExtraSummary) -> String {
     if source.shape == ExtraShape::Files {
         let _ = write!(
             text,
-            "\n\n{} files, `extras/{}/TOWN/NUMBER/TRAJECTORY/...`, beside each other as the logs are.\n\n",
-            kept.files, source.name
+            "\n\n{}, `extras/{}/TOWN/NUMBER/TRAJECTORY/...`, beside each other as the logs are.\n\n",
+            counted(kept.files, "file"),
+            source.name
         );
         return text;
     }

@@ -3,6 +3,7 @@
 use super::standing::{Board, Contest, Refused, Standing};
 use super::table::{alike, differing};
 use crate::results::{METRICS, Metric, MetricSummary, cell, ending, worst};
+use cosfly_diagnose::counted;
 use cosfly_plot::text::escaped;
 use cosfly_report::{Section, document};
 use std::fmt::Write as _;
@@ -38,8 +39,9 @@ fn heading(board: &Board) -> String {
     let rerun = count(|it| it.all().filter(|it| it.entry.proof.word() == "re-run").count());
     format!(
         "<header><div class=\"words\"><p class=\"eyebrow\">Closed-loop evaluation</p><h1>Leaderboard</h1>\
-         <p class=\"headline\"><b>{reflown}</b> entries were flown again here and came to the same rows, byte for byte.</p>\
+         <p class=\"headline\"><b>{reflown}</b> {} flown again here and came to the same rows, byte for byte.</p>\
          <p class=\"facts\">{rerun} of them by their policies, run again<span aria-hidden=\"true\"> · </span>{} claimed<span aria-hidden=\"true\"> · </span>{} refused</p></div></header>\n",
+        if reflown == 1 { "entry was" } else { "entries were" },
         board.claims(),
         board.refused.len()
     )
@@ -47,8 +49,8 @@ fn heading(board: &Board) -> String {
 
 fn of_contest(contest: &Contest) -> String {
     let mut html = format!(
-        "<p class=\"facts\">{} episodes, suite <code>{}</code></p>",
-        contest.suite.episodes,
+        "<p class=\"facts\">{}, suite <code>{}</code></p>",
+        counted(contest.suite.episodes, "episode"),
         escaped(&contest.suite.hash)
     );
     for class in &contest.rerun {

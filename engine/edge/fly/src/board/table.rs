@@ -44,21 +44,27 @@ fn of_standing(it: &Standing) -> Value {
 pub fn differing(it: &Standing) -> String {
     let (count, all) = (it.entry.proof.differs().len(), it.entry.rows.len());
     match it.entry.proof {
-        Proof::Claimed(_) => format!("{count} of {all} episodes differ"),
+        Proof::Claimed(_) => {
+            format!("{count} of {all} {}", if all == 1 { "episode differs" } else { "episodes differ" })
+        }
         Proof::NotRun(_) => "its policy could not be run".to_owned(),
-        _ => format!("its policy was run and differs in {count} of {all} episodes"),
+        _ => format!("its policy was run and differs in {count} of {}", counted(all, "episode")),
     }
 }
 
 /// The entry that it flies alike with, in words.
 pub fn alike(it: &Standing) -> Option<String> {
     let (file, episodes) = it.alike.as_ref()?;
-    Some(format!("flies {episodes} of {} episodes exactly as the entry `{}`", it.entry.rows.len(), one_line(file)))
+    let all = counted(it.entry.rows.len(), "episode");
+    Some(format!("flies {episodes} of {all} exactly as the entry `{}`", one_line(file)))
 }
 
 /// The board, for terminals.
 pub fn told(board: &Board) -> String {
     let mut text = String::new();
+    if board.contests.is_empty() && board.refused.is_empty() {
+        text.push_str("no entry is here: files of `cosfly fly bundle` end in `.jsonl.zst`\n");
+    }
     for contest in &board.contests {
         let _ = writeln!(text, "{}, {}", one_line(&contest.suite.name), counted(contest.suite.episodes, "episode"));
         for it in contest.all() {

@@ -30,7 +30,8 @@ fn of_round(round: &RoundCard) -> String {
     let policy = &round.policy;
     let version = policy.version.as_ref().map_or(String::new(), |version| format!(" {version}"));
     let made = round.made.as_ref().map_or("not yet whole".to_owned(), |made| {
-        format!("{} in {} of {} episodes", counted(made.labels, "label"), counted(made.states, "state"), made.episodes)
+        let states = counted(made.states, "state");
+        format!("{} in {states} of {}", counted(made.labels, "label"), counted(made.episodes, "episode"))
     });
     let share = 100.0 * round.by_expert;
     format!("round `{}`: {made}; policy {}{version}, the expert flew {share:.0} %", round.name, policy.name)

@@ -3,6 +3,7 @@
 use crate::flight::Row;
 use crate::log::LogLine;
 use crate::results::{Card, METRICS, Metric, MetricSummary, cell, ending, strata, summary};
+use cosfly_diagnose::counted;
 use cosfly_plot::strip::{CLASSES, strip};
 use cosfly_plot::text::escaped;
 use cosfly_report::{Section, document};
@@ -42,14 +43,14 @@ fn heading(card: &Card, rows: &[Row], title: &str) -> String {
     format!(
         "<header><div class=\"words\"><p class=\"eyebrow\">Closed-loop evaluation</p><h1>{}</h1>\
          <p class=\"headline\"><b>{:.1} %</b> of all steps track the target.</p>\
-         <p class=\"facts\">policy {}{} ({})<span aria-hidden=\"true\"> · </span>{} episodes\
+         <p class=\"facts\">policy {}{} ({})<span aria-hidden=\"true\"> · </span>{}\
          <span aria-hidden=\"true\"> · </span>suite {}</p>{measured}</div></header>\n",
         escaped(title),
         100.0 * rate,
         escaped(&card.policy.name),
         escaped(&version),
         escaped(&card.policy.kind),
-        rows.len(),
+        counted(rows.len(), "episode"),
         escaped(&card.suite.hash)
     )
 }

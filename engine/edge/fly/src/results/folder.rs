@@ -5,7 +5,7 @@ use super::differences::differences;
 use super::report;
 use crate::flight::{FlownEpisode, Row};
 use crate::log::{self, LogLine};
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, counted};
 use cosfly_whole::{Appeared, NewFolder, write_file};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -117,7 +117,8 @@ impl Folder {
         let rows = rows.lines().map(serde_json::from_str).collect::<std::result::Result<Vec<Row>, _>>();
         let rows = rows.map_err(|error| damaged("episodes.jsonl", error))?;
         if rows.len() as u64 != card.suite.episodes {
-            let message = format!("`{}` has {} of {} episodes", path.display(), rows.len(), card.suite.episodes);
+            let all = counted(card.suite.episodes, "episode");
+            let message = format!("`{}` has {} of {all}", path.display(), rows.len());
             return Err(Diagnostic::new("fly-result", Fault::Input, message)
                 .hint("fly it again: the same command makes the tables of all rows"));
         }

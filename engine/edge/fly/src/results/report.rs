@@ -3,6 +3,7 @@
 use super::card::Card;
 use super::metrics::{METRICS, Metric, MetricSummary, strata, summary};
 use crate::flight::Row;
+use cosfly_diagnose::counted;
 use cosfly_env::End;
 use cosfly_plot::text::{markdown as in_markdown, markdown_code, markdown_words};
 use serde_json::{Map, Value, json};
@@ -66,8 +67,8 @@ pub fn markdown(card: &Card, rows: &[Row]) -> String {
     let mut text = format!("# {} on {}\n\n", markdown_code(&card.policy.name), markdown_code(&card.suite.name));
     let _ = writeln!(
         text,
-        "{} episodes, suite {}. Means with 95 % intervals over resampled episodes.\n",
-        rows.len(),
+        "{}, suite {}. Means with 95 % intervals over resampled episodes.\n",
+        counted(rows.len(), "episode"),
         card.suite.hash
     );
     if card.is_measured() {

@@ -78,7 +78,8 @@ impl Arguments {
         let (name, all) = (&bundle.card.policy.name, bundle.episodes.len());
         let how = if policy.is_some() { "re-run" } else { "re-flown" };
         let same = all - differ.len();
-        let mut text = format!("{name}, {how}: {same} of {all} episodes come out the same, byte for byte\n");
+        let come = if all == 1 { "episode comes" } else { "episodes come" };
+        let mut text = format!("{name}, {how}: {same} of {all} {come} out the same, byte for byte\n");
         for line in differ.iter().take(SHOWN) {
             let _ = writeln!(text, "  {line}");
         }
