@@ -260,8 +260,9 @@ fn a_leaderboard_needs_a_folder_and_suites() {
         assert!(printed.stderr.contains(words), "{arguments:?}: {}", printed.stderr);
     };
     refused(4, &["nowhere", "--suite", "recipe.toml"], "`nowhere` does not exist");
+    std::fs::create_dir(street.path().join("none")).expect("a folder");
     let empty =
-        cosfly(&["leaderboard", ".", "--suite", "recipe.toml", "--out", "page.html"]).within(street.path()).run_ok();
+        cosfly(&["leaderboard", "none", "--suite", "recipe.toml", "--out", "page.html"]).within(street.path()).run_ok();
     assert!(empty.stdout.starts_with("no entry is here"), "{}", empty.stdout);
     refused(3, &["."], "there is no folder `recipes/benchmarks` here");
 }

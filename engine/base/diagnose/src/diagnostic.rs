@@ -113,3 +113,32 @@ impl fmt::Display for Diagnostic {
 }
 
 impl std::error::Error for Diagnostic {}
+
+/// Why `path` leads to no file and no folder, as the end of a sentence about it; none where it leads to one.
+///
+/// A link in a circle and a folder that nobody may enter are there: "does not exist" would be untrue.
+pub fn absent(path: &std::path::Path) -> Option<String> {
+    let kind = std::fs::metadata(path).err()?.kind();
+    let is_none = matches!(kind, ErrorKind::NotFound | ErrorKind::NotADirectory);
+    Some(if is_none { "does not exist".to_owned() } else { format!("cannot be read: {kind}") })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    #[cfg(unix)]
+    fn a_circle_of_links_is_told_from_nothing() {
+        use std::os::unix::fs::symlink;
+        let folder = std::env::temp_dir().join(format!("cosfly-absent-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let [a, b] = ["a", "b"].map(|name| folder.join(name));
+        symlink(&a, &b).and_then(|()| symlink(&b, &a)).unwrap();
+        assert_eq!(absent(&folder), None);
+        assert_eq!(absent(&folder.join("x")).as_deref(), Some("does not exist"));
+        let circle = absent(&a.join("data")).unwrap();
+        assert!(circle.starts_with("cannot be read: ") && circle.contains("loop"), "{circle}");
+        std::fs::remove_dir_all(folder).unwrap();
+    }
+}

@@ -11,7 +11,6 @@
 //! * [`plausible`]: the rule for numbers from outside.
 //! * [`Stop`]: the flag by which the user ends long work.
 
-mod absent;
 mod contained;
 mod diagnostic;
 mod excerpt;
@@ -22,9 +21,8 @@ mod print;
 mod stop;
 mod visible;
 
-pub use absent::absent;
 pub use contained::contained;
-pub use diagnostic::{Diagnostic, Fault, Label, Result};
+pub use diagnostic::{Diagnostic, Fault, Label, Result, absent};
 pub use nearest::nearest_name;
 pub use parameter::ParameterError;
 pub use plausible::{Implausible, LARGEST_MAGNITUDE, plausible};

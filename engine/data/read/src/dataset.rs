@@ -71,13 +71,10 @@ impl PublishedDataset {
 
     /// Name that the dataset has itself, in `croissant.json`, whatever its folder is called; `dataset` where it has none.
     pub fn name(&self) -> String {
-        #[derive(serde::Deserialize)]
-        struct Description {
-            name: String,
-        }
         let file = std::fs::read(self.folder.join("croissant.json")).unwrap_or_default();
-        let name = serde_json::from_slice(&file).map_or_else(|_| String::new(), |it: Description| it.name);
-        if name.trim().is_empty() { "dataset".to_owned() } else { name }
+        let description: serde_json::Value = serde_json::from_slice(&file).unwrap_or_default();
+        let name = description["name"].as_str().unwrap_or_default();
+        if name.trim().is_empty() { "dataset".to_owned() } else { name.to_owned() }
     }
 
     /// All trajectories.
@@ -148,10 +145,8 @@ impl PublishedDataset {
             let message = format!("`{}` has no trajectory `{id}`", self.folder.display());
             let refusal = Diagnostic::new("dataset-no-flight", Fault::Recipe, message);
             let ids: Vec<&str> = self.flights.iter().map(|flight| flight.trajectory_id.as_str()).collect();
-            let refusal = match nearest_name(id, ids.iter().copied()) {
-                Some(near) => refusal.hint(format!("did you mean `{near}`?")),
-                None => refusal,
-            };
+            let near = nearest_name(id, ids.iter().copied()).map(|near| format!("did you mean `{near}`?"));
+            let refusal = near.into_iter().fold(refusal, Diagnostic::hint);
             let shown: Vec<String> = ids.iter().take(LISTED).map(|id| format!("`{id}`")).collect();
             let more = if ids.len() > LISTED { format!(" and {} more", ids.len() - LISTED) } else { String::new() };
             refusal.hint(format!("its trajectories are {}{more}", shown.join(", ")))
@@ -194,8 +189,8 @@ fn no_dataset(folder: &Path, rejections: &BTreeMap<String, String>) -> Box<Diagn
     if !rejections.is_empty() {
         let message = format!("`{shown}` has no flights: {} were planned and left out", rejections.len());
         let refusal = Diagnostic::new("dataset-none", Fault::Input, message);
-        let reason = |(id, reason): (&String, &String)| format!("{id}: {reason}");
-        let refusal = rejections.iter().take(3).map(reason).fold(refusal, Diagnostic::because);
+        let reasons = rejections.iter().take(3).map(|(id, reason)| format!("{id}: {reason}"));
+        let refusal = reasons.fold(refusal, Diagnostic::because);
         return refusal.hint("change the recipe, and run it again; table `rejected` has all reasons");
     }
     let message = match (absent(folder), is_file) {
