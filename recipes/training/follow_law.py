@@ -3,8 +3,9 @@
     python recipes/training/follow_law.py recipes/policies/follow_law.onnx
 
 It sees depth, the target's mask and its own motion, and keeps between steps where the target was, how it moved, and points of what it has seen in
-the last seconds. In each step it weighs 99 velocities: how far above the horizon around the target, as these points draw it, the drone would then be, its
-distance, and what stands in its way. Nothing is fitted; the numbers were chosen by hand, on walks of the seed 7002. Needs `pip install . numpy onnx`.
+the last 14 seconds. In each step it draws what hides the target, one to seven seconds ahead, from 128 directions, and weighs 147 velocities: how
+hidden the target would be, the distance, the way to the best view, and what stands in the way. Nothing is fitted; the numbers were chosen by
+hand, on walks of the seeds 7002 and 7003. Needs `pip install . numpy onnx`.
 """
 
 import argparse
@@ -18,7 +19,7 @@ import cosfly.onnx
 
 STEP_S, SIZE_PX = 0.1, 96
 PIXELS = np.array([2, 10, 18, 26, 32, 36, 40, 44, 48, 52, 56, 60, 66, 74, 82, 90])  # rows and columns of the points, denser in the middle
-FRAMES, EVERY = 5, 10  # pictures whose points are kept beside the present ones, and the steps between two
+FRAMES, EVERY = 7, 20  # pictures whose points are kept beside the present ones, and the steps between two
 POINTS, ALL = len(PIXELS) ** 2, len(PIXELS) ** 2 * (FRAMES + 1)
 FAR_BELOW_M = 1000  # heights are kept above this, so that an empty memory is no obstacle
 PLACE_GAIN, SPEED_GAIN = 0.6, 0.6  # share of the surprise; 1/s
@@ -27,16 +28,30 @@ TURNS = np.arange(DIRECTIONS) * 2 * np.pi / DIRECTIONS
 ALONG = np.stack([np.cos(TURNS), np.sin(TURNS)], 1).astype(np.float32)
 ACROSS = np.stack([-np.sin(TURNS), np.cos(TURNS)], 1).astype(np.float32)
 RISES = (-2.0, 0.0, 2.0)
-LEVEL = [(0.0, 0.0)] + [(speed * x, speed * y) for speed in (1.5, 4.0) for x, y in ALONG]
+LEVEL = [(0.0, 0.0)] + [(speed * x, speed * y) for speed in (1.0, 2.2, 4.5) for x, y in ALONG]
 CHOICES = np.array([(x, y, rise) for x, y in LEVEL for rise in RISES], np.float32)  # m/s; along the level, against the target
-LATER = ((1.0, 1.2), (2.5, 1.8))  # seconds ahead, and the cost of a hidden target then
 RESPONSE = 1.5  # 1/s; how fast the drone takes on a velocity
-STRIP_M, NEAR_M, REACH_M, TALL_M = 1.0, 0.2, 14.0, 1.6  # points that make a horizon: beside the line, from and to the target, above it
+COLDNESS = 10.0  # of the choice: the higher, the more the best velocity counts
+EFFORT, SPEED_COST = 0.01, 0.004  # of squares of changes and of speeds against the target, m/s
+# Views: directions around the target, and rise over run.
+SLOPES = np.array([0.25, 0.45, 0.7, 1.0, 1.4, 2.0, 3.2, 6.0], np.float32)
+SINES = SLOPES / np.sqrt(1 + SLOPES**2)
+RAYS = np.stack([np.repeat(ALONG[:, 0], len(SLOPES)), np.repeat(ALONG[:, 1], len(SLOPES)), np.tile(SLOPES, DIRECTIONS)])
+SOON = ((1.0, 1.6), (2.5, 2.5))  # seconds ahead, and the cost of a hidden target then, of velocities
+LATER = ((4.5, 1.5), (7.0, 1.0))  # the same, of the best view alone
+BESIDE_M, SOFT_M2 = 0.7, 0.35  # how near to a line of sight a point hides the target, and how soft that border is
+THICK_M, OVER_M = 3.5, 0.3  # how far below a point its obstacle is supposed to go on, and how far above it
+REACH_M, TALL_M = 21.0, 1.0  # points that hide: from the target, above it
+DISTANCE_M, LOWEST_M, STEEPNESS, STEEP_COST = (14.0, 26.0), 9.0, 1.0, 0.02
+GOAL_M, GOAL_COLDNESS, TRIP_COST, GOAL_COST = 21.0, 40.0, 0.02, 0.06  # distance of the best view; costs for each metre
+TRUST_S = 4.0  # a target that was hidden for longer is supposed to stop; from a second before, the drone climbs to look for it
+# Obstacles: within, for points down to so far below the drone, and cost for each m/s towards them; room around the drone, and cost of its loss.
+NEAR_M, BELOW_M, NEAR_COST = 6.0, 3.5, 2.0
+AHEAD_S, ROOM_M, ROOM_COST = (1.0, 2.4), 2.0, 2.0
+BLIND_MPS, BLIND_COST = 1.0, 0.08  # speed out of the camera's view that is free, and the cost of the square of more
 MIDDLE = (np.arange(SIZE_PX, dtype=np.float32) + 0.5) / (SIZE_PX / 2) - 1
 TO_RIGHT, TO_TOP = np.meshgrid(MIDDLE, -MIDDLE)
-DISTANCE_M, LOWEST_M, STEEPNESS = (12.0, 20.0), 9.0, 1.6
-TRUST_S = 4.0  # a target that was hidden for longer is supposed to stop; from a second before, the drone climbs to look for it
-COLDNESS = 10.0  # of the choice: the higher, the more the best velocity counts
+CENTRE = np.outer(abs(MIDDLE) < 2 / SIZE_PX, abs(MIDDLE) < 2 / SIZE_PX) * (SIZE_PX**2 / 4)
 
 
 class Graph:
@@ -129,12 +144,19 @@ class Value:
     def at_pixels(self):
         return self.graph.node("Gather", self.graph.node("Gather", self, PIXELS, axis=0), PIXELS, axis=1).shaped(POINTS)
 
-    def highest(self):
+    def squared(self):
+        """The square of the length of each column of three."""
+        return self.graph.node("ReduceMean", self * self, axes=[0], keepdims=1) * 3
+
+    def root(self):
+        return self.graph.node("Sqrt", self)
+
+    def highest(self, rows=DIRECTIONS):
         """The highest value in each row over all points."""
-        pooled = self.shaped(1, 1, DIRECTIONS, ALL)
+        pooled = self.shaped(1, 1, rows, ALL)
         for count in (POINTS, FRAMES + 1):
             pooled = self.graph.node("MaxPool", pooled, kernel_shape=[1, count], strides=[1, count])
-        return pooled.shaped(DIRECTIONS, 1)
+        return pooled.shaped(rows, 1)
 
 
 def joined(*parts, axis=0):
@@ -143,7 +165,7 @@ def joined(*parts, axis=0):
 
 def length(*parts, least=1e-3):
     squares = [part * part for part in parts]
-    return parts[0].graph.node("Sqrt", sum(squares[1:], squares[0]).least(least**2))
+    return sum(squares[1:], squares[0]).least(least**2).root()
 
 
 class Camera:
@@ -168,8 +190,12 @@ def tracked(camera, own, depth, mask, memory):
     """Place and velocity of the target from the drone, along the world's axes; time since it was seen, and whether it ever was."""
     masked, area = depth * mask, mask.mean().least(1 / SIZE_PX**2)
     seen = (mask.mean() * SIZE_PX**2).most(1)
-    measured = camera.world(*(picture.mean() / area for picture in (masked, masked * TO_RIGHT, masked * TO_TOP)))
     age, known = memory[6], memory[7]
+    # A target that was never seen is in the middle of the picture: there the camera is aimed at first.
+    aimed = (1 - known) * (1 - seen)
+    far, *aside = (picture.mean() / area for picture in (masked, masked * TO_RIGHT, masked * TO_TOP))
+    measured = camera.world(far + (depth * CENTRE).mean() * aimed, *aside)
+    seen = seen.least(1 - known)
     again = (age * 10 - 2).within(0, 1)  # seen after a while: the place is taken over, and the surprise was made in all that time
     lost = (age - TRUST_S).within(0, 1) * 0.1
     gain = known * ((1 - again) * SPEED_GAIN + again * 0.5 / (age + 1))
@@ -201,45 +227,89 @@ def surroundings(camera, own, depth, points, tick):
 def blocked(flat, up, speed):
     """Cost of flying towards what stands as high as the drone, for each choice."""
     along, aside = ALONG @ flat, abs(ACROSS @ flat)
-    lower = (-up - 1.5).least(0) * 10.0
+    lower = (-up - BELOW_M).least(0) * 10.0
     way = along.least(0) + (aside - 1.0).least(0) * 3.0 + (-along).least(0) * 10.0 + lower
-    close = (1 - way * (1 / 6.0)).highest().least(0)
+    close = (1 - way * (1 / NEAR_M)).highest().least(0)
     towards = [((speed[0] + CHOICES[:, :1]) * float(x) + (speed[1] + CHOICES[:, 1:2]) * float(y)).least(0) for x, y in ALONG]
-    return joined(*towards, axis=1) @ (close * close)
+    return joined(*towards, axis=1) @ (close * close) * NEAR_COST
 
 
-def hidden(flat, up, target, view):
-    """How likely obstacles hide a place from views of it, each a vector from it."""
+def crowded(flat, up, spots):
+    """Cost of points too near to a place, for each choice."""
+    points = joined(flat, up.shaped(1, -1))
+    half = (spots[0] * spots[0] + spots[1] * spots[1] + spots[2] * spots[2]) * 0.5
+    near = (joined(*spots, half * 0 + 1, axis=1) @ joined(points, points.squared() * -0.5)).highest(len(CHOICES)) - half
+    return (near * (2 / ROOM_M**2) + 1).least(0) * ROOM_COST  # near is minus half the square of the distance
+
+
+def hidden(flat, up, target):
+    """How likely obstacles hide a place: 0 to 1, for each direction and slope."""
+    # Each point hides what is behind a ball around the middle of its obstacle, in a space that is squeezed to make it round.
+    squeeze = BESIDE_M * 2 / (THICK_M + OVER_M)
+    rays = RAYS.T * np.array([1, 1, squeeze])
+    rays = rays / np.linalg.norm(rays, axis=1, keepdims=True)
     over = up - target[2]
-    away = flat - joined(*target[:2]).shaped(2, 1)
-    along, aside = ALONG @ away, abs(ACROSS @ away)
-    # The horizon: tangents of its height in each direction. What a point is outside of counts against it.
-    outside = aside.least(STRIP_M) + abs(along - (REACH_M / 2 + NEAR_M)).least(REACH_M / 2) + (TALL_M - over).least(0)
-    horizon = (over / along.least(2 * NEAR_M) - outside * 20).highest() + 20 * (STRIP_M + REACH_M / 2)
-    level = length(*view[:2], least=0.5)
-    steepness = view[2] / level
+    balls = joined(flat - joined(*target[:2]).shaped(2, 1), ((over - (THICK_M - OVER_M) / 2) * squeeze).shaped(1, -1))
+    square = balls.squared()
+    distance = square.least(BESIDE_M**2).root()
+    edge = distance * (square - BESIDE_M**2).least(0).root()
+    apart = ((TALL_M - over).least(0) + (distance - REACH_M).least(0)).shaped(1, -1) * 10.0
+    inside = np.hstack([rays, -np.ones((len(rays), 1))]) @ joined(balls * distance, edge + apart)
+    return (inside.highest(len(rays)) * (1 / SOFT_M2) + 1).within(0, 1).shaped(DIRECTIONS, len(SLOPES))
+
+
+def looked_up(drawn, view):
+    """What was drawn for directions and slopes, at views that are vectors from the target; their steepness; their lengths."""
+    level, far = length(*view[:2], least=0.5), length(*view)
     near = ((view[0] / level * ALONG[:, 0].reshape(1, -1) + view[1] / level * ALONG[:, 1].reshape(1, -1)) * 60.0).softmax()
-    low = (near @ horizon.least(0) + 0.2 - steepness) / ((1 + 0.3 * steepness.least(0)) * 0.25)
-    return low.sigmoid(), steepness
+    apart = view[2] / far - SINES.reshape(1, -1)
+    shares = (apart * apart * -150.0).softmax()
+    return ((near @ drawn) * shares) @ np.ones((len(SLOPES), 1)), view[2] / level, far
 
 
-def chosen(flat, up, own, place, speed, age):
+def bent(steepness):
+    """Cost of a view's steepness."""
+    return (steepness - STEEPNESS) * (steepness - STEEPNESS) * STEEP_COST
+
+
+def best_view(drawn, own, place, speed):
+    """The best of all directions and slopes for the next seconds, a vector from the target."""
+    blend = np.eye(DIRECTIONS) * 0.5 + np.roll(np.eye(DIRECTIONS), 1, 0) * 0.25 + np.roll(np.eye(DIRECTIONS), -1, 0) * 0.25
+    grid = blend @ sum((one * weight for one, weight in drawn[1:]), drawn[0][0] * drawn[0][1])
+    views = RAYS / np.sqrt(1 + RAYS[2:] ** 2) * GOAL_M
+    plain = np.maximum(LOWEST_M - views[2:], 0) ** 2 * 0.1 + bent(np.minimum(RAYS[2:], 4))
+    now = [own[axis] - place[axis] - (speed[axis] if axis < 2 else 0) for axis in range(3)]
+    trip = length(*(views[axis : axis + 1] - now[axis] for axis in range(3)))
+    cost = grid.shaped(1, -1) + trip * TRIP_COST + plain
+    return ((cost * -GOAL_COLDNESS).softmax() @ views.T.copy()).shaped(3)
+
+
+def chosen(camera, flat, up, own, place, speed, age):
     """Velocity along the world's axes: the mean of the choices, the cheapest counting most."""
     x, y, rise = (CHOICES[:, axis : axis + 1] for axis in range(3))
     wanted = [speed[0] + x, speed[1] + y, rise]
     changes = [velocity - was for velocity, was in zip(wanted, own)]
     squares = [change * change for change in changes]
-    cost = (squares[0] + squares[1] + squares[2]) * 0.01 + (CHOICES**2).sum(1).reshape(-1, 1) * 0.004 + blocked(flat, up, speed)
+    cost = (squares[0] + squares[1] + squares[2]) * EFFORT + (CHOICES**2).sum(1).reshape(-1, 1) * SPEED_COST + blocked(flat, up, speed)
+    flown = lambda time_s: (time_s - (1 - np.exp(-time_s * RESPONSE)) / RESPONSE, (1 - np.exp(-time_s * RESPONSE)) / RESPONSE)
+    for time_s in AHEAD_S:
+        taken_s, kept_s = flown(time_s)
+        cost = cost + crowded(flat, up, [velocity * taken_s + was * kept_s for velocity, was in zip(wanted, own)])
+    ahead, right = camera.heading(*wanted[:2])
+    blind = (abs(right) - ahead - BLIND_MPS).least(0)
+    cost = cost + blind * blind * BLIND_COST
     lowest = (age - TRUST_S + 1).within(0, 4) * 3 + LOWEST_M
-    for time_s, weight in LATER:
-        taken_s = time_s - (1 - np.exp(-time_s * RESPONSE)) / RESPONSE
-        target = [place[0] + speed[0] * time_s, place[1] + speed[1] * time_s, place[2]]
-        view = [velocity * taken_s + was * (time_s - taken_s) - there for velocity, was, there in zip(wanted, own, target)]
-        unseen, steepness = hidden(flat, up, target, view)
-        distance = length(*view)
+    at = lambda time_s: [place[0] + speed[0] * time_s, place[1] + speed[1] * time_s, place[2]]
+    drawn = [(hidden(flat, up, at(time_s)), weight) for time_s, weight in SOON + LATER]
+    for (time_s, _), (one, weight) in zip(SOON, drawn):
+        taken_s, kept_s = flown(time_s)
+        view = [velocity * taken_s + was * kept_s - there for velocity, was, there in zip(wanted, own, at(time_s))]
+        unseen, steepness, distance = looked_up(one, view)
         beyond = (DISTANCE_M[0] - distance).least(0) + (distance - DISTANCE_M[1]).least(0)
-        sunk, bent = (lowest - view[2]).least(0), steepness.most(4) - STEEPNESS
-        cost = cost + unseen * weight + beyond * beyond * 0.025 + sunk * sunk * 0.1 + bent * bent * 0.075
+        sunk = (lowest - view[2]).least(0)
+        cost = cost + unseen * weight + beyond * beyond * 0.025 + sunk * sunk * 0.1 + bent(steepness.most(4))
+    goal = best_view(drawn, own, place, speed)
+    cost = cost + length(*(view[axis] - goal[axis] for axis in range(3))) * GOAL_COST
     best = ((cost.shaped(1, len(CHOICES)) * -COLDNESS).softmax() @ CHOICES).shaped(3)
     return best[0] + speed[0], best[1] + speed[1], best[2]
 
@@ -260,7 +330,7 @@ def law(graph, names):
     count = memory[8] + 1
     tick = (count - (EVERY - 1)).within(0, 1)
     flat, up, kept = surroundings(camera, own, depth, points, tick)
-    x, y, rise = chosen(flat, up, own, place, speed, age)
+    x, y, rise = chosen(camera, flat, up, own, place, speed, age)
     actions = joined(*camera.heading(x, y), rise, *turned(camera, own, place, speed)) * known
     graph.node("Reshape", actions, np.array([1, 5]), name="actions")
     graph.node("Identity", joined(*place, *speed, age, known, count * (1 - tick)), name="memory_out")
