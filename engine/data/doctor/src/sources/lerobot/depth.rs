@@ -61,7 +61,7 @@ fn depth(folder: &Path, tables: &[(usize, Option<PictureColumn>)], row: usize) -
         }
     };
     let (depth_m, [width, _]) = float_tiff::read(&file)?;
-    match depth_m.iter().find(|depth| !(**depth >= 0.0)) {
+    match depth_m.iter().find(|depth| depth.is_nan() || **depth < 0.0) {
         Some(depth) => Err(format!("a pixel has a depth of {depth} m")),
         None => Ok((depth_m, width)),
     }
