@@ -179,7 +179,7 @@ fn cameras_that_cannot_be_are_refused_with_their_key() {
         ("gimbal = { position_in_body_m = [0.0, 0.0, 40.0] }", "position_in_body_m"),
         ("lens = { model = \"fisheye\" }\nfov_deg = 140.0", "no picture in the corners"),
         ("[stages.frames.cameras.down]\nwidth = 8", "`cameras.down.width` is `8`"),
-        ("[stages.frames.cameras.down]\nlens = { k1 = -0.9 }", "the corners of a field of view"),
+        ("[stages.frames.cameras.down]\nlens = { k1 = -0.9 }", "take a `fov_deg` of 38 or less"),
         ("paired_weathers = true\n[stages.frames.cameras.down]", "both name the films of a flight"),
     ] {
         let printed = cosfly(&["run", "recipe.toml"]).within(filmed_by(lines).path()).run();

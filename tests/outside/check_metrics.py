@@ -68,7 +68,7 @@ def check_waypoints(ours, truth, predicted):
     agree("MAE of positions against scikit-learn", means["position_mae_m"], mean_absolute_error(zeros[:, :3], wrapped[:, :3]))
     agree("MAE of rotations against scikit-learn", means["rotation_mae_deg"], mean_absolute_error(zeros[:, 3:], wrapped[:, 3:]))
     ends = wrapped.reshape(predicted.shape)[:, -1]
-    ahead = Rotation.from_euler("z", truth[:, -1, 4], degrees=True).inv().apply(ends[:, :3])
+    ahead = Rotation.from_euler("z", truth[:, -1, 4:5], degrees=True).inv().apply(ends[:, :3])
     agree("lasting error by scipy's rotations", means["lasting_m"], np.linalg.norm(ahead.mean(axis=0)))
     agree("lasting turn by hand", means["lasting_turn_deg"], np.linalg.norm(ends[:, 3:5].mean(axis=0)))
     fde, last = np.array(fde), yaw[:, -1]

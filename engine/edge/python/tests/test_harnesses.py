@@ -16,7 +16,7 @@ def test_an_episode_is_begun_by_its_name():
     for name in track.episodes():
         _, info = track.reset(options={"episode": name})
         assert info["episode"] == name and track.planned_steps > 0
-    with pytest.raises(ValueError, match="no episode `nowhere`"):
+    with pytest.raises(ValueError, match="no episode 'nowhere'; there are"):
         track.reset(options={"episode": "nowhere"})
 
 
