@@ -78,7 +78,7 @@ impl Livery {
                 left -= share;
                 left < 0.0
             };
-            paints.iter().find(of_share).unwrap_or(&PAINTS[0]).1
+            paints.iter().find(of_share).unwrap_or(&paints[0]).1
         };
         let paints: &[(f64, Dye)] = match body {
             BodyShape::Vehicle { kind: BodyKind::Bus, .. } => &FLEETS,
