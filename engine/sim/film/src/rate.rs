@@ -35,6 +35,15 @@ impl Rate {
         Self { first: first as usize, every: config.every.max(1) as usize, after_s, dt_s }
     }
 
+    /// Time between frames of the film where those of the flight are `dt_s` apart, seconds: without the last digits of the product, so that
+    /// three steps of 0.2 s are 0.6 s and not 0.6000000000000001 s.
+    fn step_s(&self, dt_s: f64) -> f64 {
+        match self.every {
+            1 => dt_s,
+            every => (dt_s * every as f64 * 1e12).round_ties_even() / 1e12,
+        }
+    }
+
     /// Whether the film has the flight's frames, all of them.
     fn is_whole(&self) -> bool {
         (self.first, self.every, self.after_s) == (0, 1, 0.0)
@@ -126,7 +135,7 @@ impl<'a> FilmedFlight<'a> {
 
     /// Time between frames of the film, seconds.
     pub fn dt_s(&self) -> f64 {
-        self.track.dt_s * self.rate.every as f64
+        self.rate.step_s(self.track.dt_s)
     }
 
     /// Time of a frame of the film since the flight's first frame, seconds.
@@ -168,7 +177,7 @@ pub fn filmed_flight(
         let clearance_m = flight.certificate.limits.clearance_m;
         be_later(&mut flight, &rate, ExactMap { drones: kept, clearance_m, ..ExactMap::among(boxes, &movers) });
     }
-    flight.track.dt_s *= rate.every as f64;
+    flight.track.dt_s = rate.step_s(flight.track.dt_s);
     // What was seen first since the frame before.
     let frames = rate.frames(flight.coverage.len()).count();
     let (start, rest) = flight.coverage.split_at(flight.coverage.len().min(rate.first + 1));
@@ -252,7 +261,7 @@ pub fn filmed_around(around: &Around, config: &RenderConfig) -> Around {
     }
     let mut film = if rate.after_s > 0.0 { later_around(around, rate.after_s) } else { around.clone() };
     let (first, n) = (rate.first as u32, rate.every as u32);
-    film.traffic.dt_s *= f64::from(n);
+    film.traffic.dt_s = rate.step_s(film.traffic.dt_s);
     film.traffic.frames = film.traffic.frames.saturating_sub(first).div_ceil(n);
     for body in &mut film.traffic.bodies {
         let own = body.first_frame.saturating_sub(first).div_ceil(n);
@@ -305,6 +314,13 @@ mod tests {
 
     fn nothing() -> BoxBvh {
         BoxBvh::build(vec![])
+    }
+
+    #[test]
+    fn three_steps_of_a_fifth_of_a_second_are_three_fifths() {
+        let step_s = |n: u32, dt_s: f64| Rate::of(&every(n), dt_s).step_s(dt_s);
+        assert_eq!([step_s(3, 0.2), step_s(1, 0.1 + 0.2), step_s(7, 0.2)], [0.6, 0.1 + 0.2, 1.4]);
+        assert!((step_s(7, 1.0 / 30.0) - 7.0 / 30.0).abs() < 1e-12);
     }
 
     #[test]
