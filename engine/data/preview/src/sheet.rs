@@ -38,6 +38,13 @@ impl<'a> Sheet<'a> {
         for (place, picture) in pictures.iter().enumerate() {
             row.paste(picture, place * (width + GAP), 0);
         }
+        if self.rows.is_empty() {
+            let on_request = shot.logged.on_request.iter().map(|image| image.channel.name);
+            let names = ["rgb", "depth", "semantic"].into_iter().chain(on_request).chain(["target"]);
+            for (place, name) in names.enumerate().skip(1) {
+                row.label((place * (width + GAP)) as i64 + 4, 4, 1, WHITE, name);
+            }
+        }
         let target = &shot.logged.target;
         let words = format!("frame {}  {:.1} s", target.frame, target.time_s);
         row.label(4, 4, 1, WHITE, &words);
