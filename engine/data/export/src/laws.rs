@@ -234,6 +234,9 @@ fn flights_are_chosen_by_split_and_name() {
     assert_eq!(chosen(&[&split], &[]).unwrap(), of_split);
     assert_eq!(chosen(&[&split], &[&dataset.flights()[0].trajectory_id]).unwrap(), 1);
     assert_eq!(chosen(&[], &["expert-p00001"]).unwrap(), 1);
+    assert_eq!(chosen(&[], &["expert-*"]).unwrap(), 2);
+    assert_eq!(chosen(&[], &["*-p00001", "expert-p00001"]).unwrap(), 2);
+    assert_eq!(chosen(&[], &["*-right"]).unwrap_err().code, "dataset-no-flight");
     assert_eq!(chosen(&["dev"], &[]).unwrap_err().code, "export-split");
     assert_eq!(chosen(&[], &["expert"]).unwrap_err().code, "dataset-no-flight");
     let alone = Choice { trajectories: vec!["expert-p00000".into()], ..Choice::default() };

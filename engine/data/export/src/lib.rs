@@ -14,6 +14,7 @@
 //! * [`carla_job`]: published flights as a job for a CARLA server.
 //! * [`sample_text`]: the facts of a frame as JSON.
 
+pub mod called;
 pub mod card;
 pub mod carla_job;
 pub mod folder;
@@ -29,6 +30,7 @@ pub mod shared_options;
 pub mod single_target;
 pub mod source;
 
+pub use called::flights_called;
 pub use folder::{OutFolder, Written};
 pub use format::{Export, Format, Prepared};
 pub use formats::FORMATS;

@@ -1,5 +1,6 @@
 //! The flights that are exported, one at a time, with their rows, captions and pictures.
 
+use crate::called::flights_called;
 use crate::shared_options::InstructionLanguage;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::{Channel, channels};
@@ -22,7 +23,7 @@ const BATCH: usize = 16;
 pub struct Choice {
     /// Splits to export; all when empty.
     pub splits: Vec<String>,
-    /// Ids of the trajectories to export; all when empty.
+    /// Ids of the trajectories to export, or patterns with `*`; all when empty.
     pub trajectories: Vec<String>,
 }
 
@@ -73,12 +74,11 @@ impl<'a> Source<'a> {
             return Err(Diagnostic::new("export-split", Fault::Recipe, format!("there is no split `{unknown}`"))
                 .hint(format!("the splits of this dataset are {}", names.join(", "))));
         }
-        for id in &choice.trajectories {
-            dataset.flight(id)?;
-        }
+        let called = flights_called(dataset, &choice.trajectories)?;
+        let called: BTreeSet<&str> = called.iter().map(|flight| flight.trajectory_id.as_str()).collect();
         let is_chosen = |flight: &&PublishedFlight| {
             (choice.splits.is_empty() || choice.splits.contains(&flight.split))
-                && (choice.trajectories.is_empty() || choice.trajectories.contains(&flight.trajectory_id))
+                && (called.is_empty() || called.contains(flight.trajectory_id.as_str()))
         };
         let chosen: Vec<_> = dataset.flights().iter().filter(is_chosen).collect();
         if chosen.is_empty() {

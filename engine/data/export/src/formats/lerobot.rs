@@ -192,7 +192,7 @@ fn check(source: &Source<'_>) -> Result<u32> {
     if let Some(other) = flights.find(|flight| kind(flight) != first) {
         let message =
             format!("`{}` differs from the first flight in picture size or time between frames", other.trajectory_id);
-        return Err(refusal(message).hint("LeRobot has one of each; choose flights with `--trajectory` or `--split`"));
+        return Err(refusal(message).hint("LeRobot has one of each; choose flights with `--trajectory`, such as `--trajectory '*-front'` for the films of a camera, or with `--split`"));
     }
     let fps = (1.0 / first.1).round_ties_even();
     if !(1.0..=1000.0).contains(&fps) || (fps * first.1 - 1.0).abs() > 1e-9 {

@@ -6,7 +6,7 @@ use crate::exit;
 use crate::text::count;
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Result, plausible};
-use cosfly_export::carla_job;
+use cosfly_export::{carla_job, flights_called};
 use cosfly_frames::DVec3;
 use cosfly_read::{PublishedDataset, PublishedFlight, read};
 use cosfly_schema::tables::Bodies;
@@ -66,7 +66,7 @@ fn written(arguments: &Arguments) -> Result<String> {
     let flights: Vec<&PublishedFlight> = if arguments.trajectories.is_empty() {
         dataset.flights().iter().collect()
     } else {
-        arguments.trajectories.iter().map(|id| dataset.flight(id)).collect::<Result<_>>()?
+        flights_called(&dataset, &arguments.trajectories)?
     };
     let out = arguments.out.display();
     let failed = |error: std::io::Error| Diagnostic::io(format!("write `{out}`"), &error);

@@ -25,6 +25,7 @@ Examples:
   cosfly export out/carla_town --format v7 --town downtown=Town03 --out out/town-v7
   cosfly export out/carla_town --format coco --split val --every 10 --out out/town-coco
   cosfly export out/carla_town --format vlm --language zh --out out/town-vlm
+  cosfly export out/rig --format lerobot --trajectory '*-front_left' --out out/rig-lerobot   films of one camera
 
 The new folder appears when it is whole. Flights are chosen with `--split` and `--trajectory`; without them, all are
 exported. An option that the format does not have is refused."
@@ -42,7 +43,7 @@ pub struct Arguments {
     /// Splits to export (repeatable) [default: all]
     #[arg(long = "split", value_name = "NAME")]
     splits: Vec<String>,
-    /// Flights to export, such as expert-p00000 (repeatable) [default: all]
+    /// Flights to export, such as expert-p00000 or *-front_left (repeatable) [default: all]
     #[arg(long = "trajectory", value_name = "ID")]
     trajectories: Vec<String>,
     /// Print JSON
