@@ -189,3 +189,76 @@ fn sensors_that_are_not_there_and_names_that_are_taken_are_refused_with_the_way_
         assert!(printed.code == Some(3) && printed.stderr.contains(word), "{}", printed.stderr);
     }
 }
+
+/// The street filmed by two cameras, of which another stage films `around`; a unit reads `frames` along the films of `camera`.
+fn rig(camera: &str, frames: &str) -> Street {
+    let stages = format!(
+        "[stages.frames.cameras.front]\nbase_line_m = 0.2\n[stages.frames.cameras.slow]\nevery = 3\n\n\
+         [stages.around]\nuse = \"render\"\ninputs = {{ town = \"town\", trajectories = [\"expert\", \"perturbed\"] }}\n\
+         [stages.around.cameras.wide]\nwidth = 96\nheight = 48\nlens = {{ model = \"equirectangular\" }}\n\n\
+         [stages.motion]\nuse = \"sense\"\nsensor = \"inertial_unit\"\nrate_hz = 200\ncamera = \"{camera}\"\n\
+         inputs = {{ town = \"town\", frames = {frames} }}\n\n\
+         [stages.scan]\nuse = \"scan\"\ncamera = \"{camera}\"\n\
+         pattern = {{ elevations_deg = [-60, -45], shots_hz = 1000, range_m = [0.5, 80] }}\n\
+         inputs = {{ town = \"town\", frames = {frames} }}\n\n[stages.captions]"
+    );
+    let recipe = RECIPE.replacen("[stages.captions]", &stages, 1).replacen(
+        "frames = \"frames\", captions = \"captions\" }\n",
+        "frames = [\"frames\", \"around\"], captions = \"captions\", extras = [\"motion\", \"scan\"] }\n",
+        1,
+    );
+    Street::with(&recipe, &map())
+}
+
+#[test]
+fn a_sensor_reads_along_the_films_of_one_camera_of_a_rig() {
+    let street = rig("front_left", "[\"frames\", \"around\"]");
+    cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
+    let dataset = street.dataset();
+    cosfly(&["verify", dataset.to_str().expect("UTF-8")]).within(street.path()).run_ok();
+    assert_eq!(column(&dataset, "trajectories", "trajectory_id").len(), 24);
+    for table in ["inertial_unit", "lidar"] {
+        let ids = column(&dataset, table, "trajectory_id");
+        let films: std::collections::BTreeSet<&String> = ids.iter().collect();
+        assert!(films.len() == 6 && films.iter().all(|id| id.trim_matches('"').ends_with("-front_left")), "{films:?}");
+    }
+    // The other films' logs have no topic of a sensor, and exports take films by camera.
+    let published = cosfly_read::PublishedDataset::open(&dataset).expect("a dataset");
+    for flight in published.flights() {
+        let sensors = published.log(flight).expect("a log").sensors().len();
+        assert_eq!(sensors > 0, flight.trajectory_id.ends_with("-front_left"), "{}", flight.trajectory_id);
+    }
+    let export = |ids: &str, out: &str| {
+        let all =
+            ["export", dataset.to_str().expect("UTF-8"), "--format", "lerobot", "--trajectory", ids, "--out", out];
+        cosfly(&all).within(street.path()).run()
+    };
+    assert_eq!(export("*-front_left", "left").code, Some(0));
+    let refused = export("*-left_front", "none");
+    assert!(
+        refused.code == Some(3) && refused.stderr.contains("no trajectory is like `*-left_front`"),
+        "{}",
+        refused.stderr
+    );
+}
+
+#[test]
+fn sensors_of_some_films_only_are_refused_before_anything_is_made() {
+    let street = rig("front_left", "\"frames\"");
+    let printed = cosfly(&["plan", "recipe.toml"]).within(street.path()).run();
+    let words = [
+        "`inputs.extras` of `dataset.logs` has 2 items for",
+        "and 0 for `expert-p00000-wide`",
+        "inputs.frames = [...]",
+    ];
+    let said = printed.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(printed.code == Some(3) && words.iter().all(|word| said.contains(word)), "{}", printed.stderr);
+    // No camera is called so: every table is empty.
+    let street = rig("frnt", "[\"frames\", \"around\"]");
+    let printed = cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run();
+    let said = printed.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        printed.code == Some(3) && said.contains("no reading of any flight") && said.contains("`camera`"),
+        "{said}"
+    );
+}

@@ -1,22 +1,21 @@
 //! `scan`: sweeps of a lidar along every rendered flight, as a table of the dataset.
 
-use crate::plugin::EXTRA;
 use crate::ports::EXTRAS;
 use crate::rejections::handed_on;
-use crate::sense::{READINGS, flight_ports, people};
+use crate::sense::{flight_ports, is_read, people, put};
 use crate::single;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_domain::TARGET_INSTANCE;
+use cosfly_experts::artifacts;
 use cosfly_experts::memo::Memo;
 use cosfly_experts::world::{check_same_town, world};
-use cosfly_experts::{artifacts, codec};
 use cosfly_figures::{Bystander, clothes_seed_of_target};
 use cosfly_film::looks::walk_seed;
 use cosfly_frames::Seed;
 use cosfly_render::{Scene, SceneTriangle};
 use cosfly_schema::RenderedTrajectory;
-use cosfly_schema::extras::{Extra, ExtraSource, check_names};
+use cosfly_schema::extras::{ExtraSource, check_names};
 use cosfly_schema::flight_table::MOST_ROWS;
 use cosfly_schema::log::cloud::{self, CloudPoint, SweepRows};
 use cosfly_sensors::lidar::{
@@ -24,7 +23,6 @@ use cosfly_sensors::lidar::{
 };
 use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart};
 use cosfly_stage::{StageProperties, StageRole, TaskContext, parameters};
-use std::collections::BTreeMap;
 
 /// Meaning of a lidar that is no device of the list.
 const OWN_DOC: &str = "Lidar with a pattern of the recipe.";
@@ -91,6 +89,9 @@ impl Stage for ScanStage {
             return Ok(rejected);
         }
         let record = RenderedTrajectory::from_bytes(&inputs.read(frames, "index")?)?;
+        if !is_read(self.config.camera.as_deref(), &record) {
+            return put(outputs, &self.source, SweepRows::default().into_values());
+        }
         let world = world(inputs)?;
         let town = inputs.one("town")?.blobs[artifacts::TOWN.blob].digest;
         let scene = self.scene.get(town, || -> Result<_> {
@@ -131,11 +132,7 @@ impl Stage for ScanStage {
         flight.scan(&self.pattern, &mut |sweep| {
             rows.add(sweep.frame, record.times().s(0) + sweep.time_s, &sweep.pose(), sweep.points.iter().map(written));
         });
-        let notes = BTreeMap::from([("rows".to_owned(), rows.len().to_string())]);
-        let extra = codec::encode(EXTRAS, &Extra { source: self.source.clone(), values: rows.into_values() })?;
-        outputs.put(EXTRA, &extra)?;
-        outputs.put(READINGS, &extra)?;
-        Ok(Produced { notes, ..Produced::default() })
+        put(outputs, &self.source, rows.into_values())
     }
 }
 

@@ -70,6 +70,9 @@ impl ItemReader<'_> {
                 Fan::Group => {
                     let grouped = groups.sorted(self.done, at_port.arrivals);
                     bounds = grouped.1;
+                    if matches!(properties.items, ItemRule::PerInput(_)) {
+                        self.check_even(&wire, &items, &bounds)?;
+                    }
                     grouped.0
                 }
                 Fan::Broadcast => self.single(wire, at_port)?,
@@ -199,6 +202,27 @@ impl ItemReader<'_> {
         let lacking: Vec<&ItemName> = items.iter().zip(&read).filter(|(_, it)| it.is_none()).map(|it| it.0).collect();
         let extra: Vec<&ItemName> = by_name.keys().copied().filter(|name| !known.contains(name)).collect();
         Err(self.differing(leading, wire, &lacking, &extra))
+    }
+
+    /// Rejects a port of extras that has some for an item and fewer for another.
+    fn check_even(&self, wire: &Wire, items: &ItemNames, bounds: &[usize]) -> Result<(), Box<Diagnostic>> {
+        let sizes = || bounds.windows(2).map(|pair| pair[1] - pair[0]);
+        let (most, fewest) = (sizes().max(), sizes().min());
+        if most == fewest {
+            return Ok(());
+        }
+        let of = |size: Option<usize>| sizes().position(|it| Some(it) == size).and_then(|at| items.get(at));
+        let (Some(rich), Some(poor)) = (of(most), of(fewest)) else { return Ok(()) };
+        let (port, most, fewest) = (wire.port.name, most.unwrap_or_default(), fewest.unwrap_or_default());
+        let message = format!(
+            "`inputs.{port}` of `{}` has {} for `{rich}` and {fewest} for `{poor}`",
+            self.stage,
+            counted(most, "item")
+        );
+        let hint = format!(
+            "let the stages at `inputs.{port}` read all that this stage reads: a list, such as `inputs.frames = [...]`"
+        );
+        Err(self.texts.problem("recipe-items-differ", &wire.place, message).hint(hint))
     }
 
     /// Error for two ports that must have the same items, or for a port and the stage's own items.

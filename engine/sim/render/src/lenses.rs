@@ -42,7 +42,11 @@ impl RenderConfig {
         let is_flow = |source| matches!(source, ChannelSource::Flow(_) | ChannelSource::FlowValid(_));
         if let Some(channel) = self.channels.iter().find(|channel| is_flow(channel.source)) {
             let message = format!("`{}` is of one ideal picture, and `lens` needs views all around", channel.name);
-            return problem("channels", message, "leave out the channels of flow, or take a narrower lens");
+            return problem(
+                "channels",
+                message,
+                "leave out the channels of flow, take a narrower lens, or film this camera in a stage `render` of its own",
+            );
         }
         if !self.rolling_shutter.is_none() {
             let message =

@@ -18,6 +18,10 @@ pub struct SenseConfig {
     #[serde(default)]
     #[schemars(regex(pattern = "^[a-z][a-z0-9_]{0,63}$"))]
     pub table: Option<String>,
+    /// Camera whose films are read, such as `front_left`; left out: each film has readings of its own. Those of other cameras have none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(regex(pattern = "^[a-z][a-z0-9_]*$"))]
+    pub camera: Option<String>,
     /// Readings a second, from the first frame on; left out: one in each frame. Inertial units have 200 or more.
     #[serde(default)]
     #[schemars(range(min = 0.01, max = 10000))]

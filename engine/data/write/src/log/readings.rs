@@ -26,6 +26,9 @@ impl<'a> Readings<'a> {
         let (mut sensors, mut order) = (vec![], vec![]);
         for extra in extras.iter().filter(|extra| extra.source.shape == ExtraShape::Readings) {
             let [_, Values::Reals(times_s), quantities @ ..] = &extra.values[..] else { continue };
+            if times_s.is_empty() {
+                continue; // read along the film of another camera
+            }
             let time_ns = |time_s: &f64| (time_s * 1e9).round_ties_even() as u64;
             order.extend(times_s.iter().map(time_ns).enumerate().map(|(row, time_ns)| (time_ns, sensors.len(), row)));
             let columns = extra.source.columns.iter().skip(OWN).map(|column| column.name.clone());

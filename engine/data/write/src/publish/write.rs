@@ -13,6 +13,7 @@ use cosfly_report::Figures;
 use cosfly_schema::Rejection;
 use cosfly_schema::card_text::filled;
 use cosfly_schema::config::DatasetConfig;
+use cosfly_schema::extras::{ExtraShape, ExtraSummary};
 use cosfly_schema::log::target_state;
 use cosfly_schema::tables::{self, FileRecord};
 use std::collections::BTreeMap;
@@ -28,6 +29,7 @@ pub fn write_dataset(
     if summary.flights() == 0 {
         return Err(nothing_to_publish(&rejections));
     }
+    check_sensors(&summary.extras)?;
     let config = &with_facts(config, &summary);
     let mut files = Files::new(sink);
     let boxes = source.objects()?;
@@ -83,6 +85,17 @@ fn with_facts(config: &DatasetConfig, summary: &Summary) -> DatasetConfig {
     let facts = summary.facts();
     let [title, description] = [&config.title, &config.description].map(|text| filled(text, &facts));
     DatasetConfig { title, description, ..config.clone() }
+}
+
+/// A sensor that reads along the films of one camera has that camera in some flight.
+fn check_sensors(extras: &[ExtraSummary]) -> Result<()> {
+    let is_silent = |it: &&ExtraSummary| it.source.shape == ExtraShape::Readings && it.rows.values().sum::<u64>() == 0;
+    extras.iter().find(is_silent).map_or(Ok(()), |it| {
+        let message = format!("{} gave `{}` no reading of any flight", it.source.origin(), it.source.name);
+        let hint = "its key `camera` names a camera that films no flight: cameras are the tables below `cameras` of the stage \
+                    `render`; those of a pair end in `_left` and `_right`";
+        Err(Diagnostic::new("dataset-extras", Fault::Recipe, message).hint(hint))
+    })
 }
 
 /// An empty dataset is no success: says what was rejected and why.

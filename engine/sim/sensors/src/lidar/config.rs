@@ -25,6 +25,10 @@ pub struct ScanConfig {
     #[serde(default)]
     #[schemars(regex(pattern = "^[a-z][a-z0-9_]{0,63}$"))]
     pub table: Option<String>,
+    /// Camera whose films are scanned, such as `front_left`; left out: each film has sweeps of its own. Those of other cameras have none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(regex(pattern = "^[a-z][a-z0-9_]*$"))]
+    pub camera: Option<String>,
     /// Sweeps a second; left out: 10. A sweep has a whole number of shots.
     #[serde(default)]
     #[schemars(range(min = 0.1, max = 1000))]

@@ -246,6 +246,7 @@ fn refusals_name_the_key() {
         lidar: lidar.map(str::to_owned),
         pattern,
         table: None,
+        camera: None,
         rate_hz,
         position_in_body_m: [0.0; 3],
         pitch_deg: 0.0,
