@@ -234,6 +234,23 @@ fn a_sensor_reads_along_the_films_of_one_camera_of_a_rig() {
         cosfly(&all).within(street.path()).run()
     };
     assert_eq!(export("*-front_left", "left").code, Some(0));
+    // Films with the same moments are one episode for LeRobot, with a feature for each camera.
+    assert_eq!(export("*-front_*", "pair").code, Some(0));
+    let mut episodes = 0;
+    for split in ["train", "val", "test"] {
+        let Ok(text) = std::fs::read_to_string(street.path().join(format!("pair/{split}/meta/info.json"))) else {
+            continue;
+        };
+        let info: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        episodes += info["total_episodes"].as_u64().expect("a count");
+        for name in ["observation.images.front_left", "observation.images.front_right", "observation.sensors"] {
+            assert!(info["features"][name].is_object(), "{name}: {text}");
+        }
+        assert!(info["features"]["observation.images.rgb"].is_null());
+    }
+    assert_eq!(episodes, 6);
+    let refused = export("*", "all");
+    assert!(refused.code == Some(3) && refused.stderr.contains("the times of its frames"), "{}", refused.stderr);
     let refused = export("*-left_front", "none");
     assert!(
         refused.code == Some(3) && refused.stderr.contains("no trajectory is like `*-left_front`"),

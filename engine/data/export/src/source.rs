@@ -189,6 +189,15 @@ impl<'a> Source<'a> {
         Ok(self.dataset.tracks(index, &[place].into())?.remove(&place).map_or(vec![], |track| track.poses))
     }
 
+    /// Readings of the sensors of a flight that are no cameras.
+    ///
+    /// # Errors
+    /// Damage of the log.
+    pub fn readings(&self, flight: &PublishedFlight) -> Result<Vec<SensorReadings>> {
+        let mut log = self.dataset.log(flight)?;
+        log.sensors().into_iter().map(|sensor| log.readings(&sensor).map(|all| (sensor, all))).collect()
+    }
+
     fn set_done(&self, done: u64) {
         self.done.set(done);
         (self.progress)(done, self.all.get());
@@ -201,8 +210,7 @@ impl ExportedFlight<'_> {
     /// # Errors
     /// Damage of the log.
     pub fn readings(&self) -> Result<Vec<SensorReadings>> {
-        let mut log = self.source.dataset.log(self.flight)?;
-        log.sensors().into_iter().map(|sensor| log.readings(&sensor).map(|all| (sensor, all))).collect()
+        self.source.readings(self.flight)
     }
 
     /// Sweeps of the flight's lidars.
@@ -222,7 +230,23 @@ impl ExportedFlight<'_> {
         make: impl Fn(usize, LoggedFrame) -> Result<T> + Sync,
         take: impl FnMut(usize, T) -> Result<()>,
     ) -> Result<()> {
-        self.pictures(frames, make, take, &|frames| self.source.set_done(self.source.done.get() + frames as u64))
+        self.each_picture_of(self.flight, frames, make, take)
+    }
+
+    /// [`Self::each_picture`] of another film of the flight that has the same moments; progress is that of this one.
+    pub fn each_picture_of<T: Send>(
+        &self,
+        film: &PublishedFlight,
+        frames: &[usize],
+        make: impl Fn(usize, LoggedFrame) -> Result<T> + Sync,
+        take: impl FnMut(usize, T) -> Result<()>,
+    ) -> Result<()> {
+        let is_own = film.trajectory_id == self.flight.trajectory_id;
+        let own = Mutex::default();
+        let logs = if is_own { &self.logs } else { &own };
+        let done =
+            |frames: usize| self.source.set_done(self.source.done.get() + if is_own { frames as u64 } else { 0 });
+        self.pictures((film, logs), frames, make, take, &done)
     }
 
     /// [`Self::each_picture`] that no progress is shown of: a look ahead.
@@ -232,17 +256,18 @@ impl ExportedFlight<'_> {
         make: impl Fn(usize, LoggedFrame) -> Result<T> + Sync,
         take: impl FnMut(usize, T) -> Result<()>,
     ) -> Result<()> {
-        self.pictures(frames, make, take, &|_| {})
+        self.pictures((self.flight, &self.logs), frames, make, take, &|_| {})
     }
 
     fn pictures<T: Send>(
         &self,
+        (flight, logs): (&PublishedFlight, &Mutex<Vec<LogReader>>),
         frames: &[usize],
         make: impl Fn(usize, LoggedFrame) -> Result<T> + Sync,
         mut take: impl FnMut(usize, T) -> Result<()>,
         done: &dyn Fn(usize),
     ) -> Result<()> {
-        let (dataset, flight, logs) = (self.source.dataset, self.flight, &self.logs);
+        let dataset = self.source.dataset;
         let made_of = |frame: &usize| {
             // Each thread opens the log once at most.
             let open = logs.lock().unwrap_or_else(PoisonError::into_inner).pop();

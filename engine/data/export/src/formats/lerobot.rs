@@ -2,6 +2,7 @@
 
 mod depth;
 mod episodes;
+mod eyes;
 mod motion;
 mod statistics;
 mod tables;
@@ -21,6 +22,7 @@ use cosfly_schema::log::reading::LoggedSensor;
 use cosfly_schema::tables::Table;
 use cosfly_write::table_file::TableWriter;
 use episodes::EpisodeFile;
+use eyes::{Eye, Films};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -74,7 +76,8 @@ impl Format for LeRobot {
             return Err(Diagnostic::new("export-lerobot", Fault::Recipe, message).hint("add `--depth`"));
         }
         let max_depth_m = options.depth.then_some(options.max_depth_m as f32);
-        let kind = Kind { fps: check(source)?, sensed: sensed(source)?, max_depth_m };
+        let films = Films::of(source)?;
+        let kind = Kind { fps: fps(films.dt_s)?, sensed: sensed(source, &films)?, films, max_depth_m };
         for split in source.splits() {
             write_split(options.instructions.language, source, out, split, &kind)?;
         }
@@ -84,7 +87,9 @@ impl Format for LeRobot {
 }
 
 /// Properties that all episodes share.
-struct Kind {
+struct Kind<'a> {
+    /// The films of each.
+    films: Films<'a>,
     /// Frames per second.
     fps: u32,
     /// Names of the numbers of all sensors that are no cameras.
@@ -93,10 +98,21 @@ struct Kind {
     max_depth_m: Option<f32>,
 }
 
-/// Names of the numbers that the first flight's sensors measured.
-fn sensed(source: &Source<'_>) -> Result<Vec<String>> {
+/// Names of the numbers that the sensors of the first flight measured.
+fn sensed(source: &Source<'_>, films: &Films<'_>) -> Result<Vec<String>> {
     let Some(flight) = source.flights().next() else { return Ok(vec![]) };
-    Ok(source.dataset.log(flight)?.sensors().iter().flat_map(names_of).collect())
+    let film = sensing(source, films.of_episode(flight))?.unwrap_or(flight);
+    Ok(source.dataset.log(film)?.sensors().iter().flat_map(names_of).collect())
+}
+
+/// The first film with readings.
+fn sensing<'a>(source: &Source<'_>, films: &[&'a PublishedFlight]) -> Result<Option<&'a PublishedFlight>> {
+    for film in films {
+        if !source.dataset.log(film)?.sensors().is_empty() {
+            return Ok(Some(film));
+        }
+    }
+    Ok(None)
 }
 
 fn names_of(sensor: &LoggedSensor) -> Vec<String> {
@@ -104,8 +120,9 @@ fn names_of(sensor: &LoggedSensor) -> Vec<String> {
 }
 
 /// The last readings at each frame, those of all sensors one after the other.
-fn sensed_by_frame(episode: &ExportedFlight<'_>, kind: &Kind) -> Result<Vec<Vec<f64>>> {
-    let sensors = episode.readings()?;
+fn sensed_by_frame(source: &Source<'_>, episode: &ExportedFlight<'_>, kind: &Kind<'_>) -> Result<Vec<Vec<f64>>> {
+    let film = sensing(source, kind.films.of_episode(episode.flight))?;
+    let sensors = film.map_or(Ok(vec![]), |film| source.readings(film))?;
     let names: Vec<String> = sensors.iter().flat_map(|(sensor, _)| names_of(sensor)).collect();
     let begins = |(_, readings): &SensorReadings| {
         readings.first().is_some_and(|(time_ns, _)| *time_ns == episode.flight.begins_ns)
@@ -135,16 +152,16 @@ fn write_split(
     source: &Source<'_>,
     out: &OutFolder,
     split: &str,
-    kind: &Kind,
+    kind: &Kind<'_>,
 ) -> Result<()> {
-    let table = tables::data(kind.sensed.len(), kind.max_depth_m.is_some());
+    let table = tables::data(&kind.films.eyes, kind.sensed.len(), kind.max_depth_m.is_some());
     let mut data = DataFiles { out, split, table: &table, file: 0, bytes: 0, open: None };
     let mut statistics = Statistics::default();
     let mut tasks: BTreeMap<String, usize> = BTreeMap::new();
     let (mut task_names, mut count, mut index) = (vec![], 0, 0);
     let path = |name: &str| format!("{split}/meta/{name}");
     let mut episodes = EpisodeFile::new(out.create(&path("episodes/chunk-000/file-000.parquet"))?);
-    source.each_flight_of(&|flight| flight.split == split, &mut |episode| {
+    source.each_flight_of(&|flight| flight.split == split && kind.films.is_lead(flight), &mut |episode| {
         let task = episode.instruction(language).to_owned();
         let task_index = *tasks.entry(task.clone()).or_insert_with(|| {
             task_names.push(task.clone());
@@ -153,12 +170,14 @@ fn write_split(
         let expert = episode.expert_poses()?;
         let mut own = Statistics::default();
         let mut rows = rows_of(episode, &expert, [count, index, task_index], &mut [&mut own, &mut statistics])?;
-        rows.readings = sensed_by_frame(episode, kind)?;
-        append_pictures(episode, kind.max_depth_m, &mut rows, &mut [&mut own, &mut statistics])?;
+        rows.readings = sensed_by_frame(source, episode, kind)?;
+        for (film, eye) in kind.films.of_episode(episode.flight).iter().zip(&kind.films.eyes) {
+            append_pictures((episode, film), eye, kind.max_depth_m, &mut rows, &mut [&mut own, &mut statistics])?;
+        }
         for statistics in [&mut own, &mut statistics].into_iter().filter(|_| !kind.sensed.is_empty()) {
             rows.readings.iter().for_each(|numbers| statistics.push(tables::SENSORS, numbers));
         }
-        let length = rows.pictures.len();
+        let length = rows.vectors.len();
         let file = data.append(&rows)?;
         let row = EpisodeRow {
             trajectory_id: episode.flight.trajectory_id.clone(),
@@ -180,23 +199,15 @@ fn write_split(
     let tasks: Vec<TaskRow> = task_names.into_iter().enumerate().map(|(index, task)| TaskRow { index, task }).collect();
     write_table(out, &path("tasks.parquet"), &tables::tasks(), &tasks, &[("pandas", tables::pandas_index())])?;
     out.put(&path("stats.json"), format!("{:#}\n", statistics.to_json()).as_bytes())?;
-    out.put(&path("info.json"), format!("{:#}\n", info(source, split, kind, [count, index, tasks.len()])).as_bytes())
+    out.put(&path("info.json"), format!("{:#}\n", info(split, kind, [count, index, tasks.len()])).as_bytes())
 }
 
-/// Checks that all flights have one picture size and one whole number of frames per second; returns that number.
-fn check(source: &Source<'_>) -> Result<u32> {
-    let refusal = |message: String| Diagnostic::new("export-lerobot", Fault::Recipe, message);
-    let kind = |flight: &PublishedFlight| ([flight.camera.width, flight.camera.height], flight.dt_s);
-    let mut flights = source.flights();
-    let first = flights.next().map(kind).unwrap_or(([0; 2], 0.0));
-    if let Some(other) = flights.find(|flight| kind(flight) != first) {
-        let message =
-            format!("`{}` differs from the first flight in picture size or time between frames", other.trajectory_id);
-        return Err(refusal(message).hint("LeRobot has one of each; choose flights with `--trajectory`, such as `--trajectory '*-front'` for the films of a camera, or with `--split`"));
-    }
-    let fps = (1.0 / first.1).round_ties_even();
-    if !(1.0..=1000.0).contains(&fps) || (fps * first.1 - 1.0).abs() > 1e-9 {
-        return Err(refusal(format!("{} s between frames is not a whole number of frames per second", first.1)));
+/// The whole number of frames per second.
+fn fps(dt_s: f64) -> Result<u32> {
+    let fps = (1.0 / dt_s).round_ties_even();
+    if !(1.0..=1000.0).contains(&fps) || (fps * dt_s - 1.0).abs() > 1e-9 {
+        let message = format!("{dt_s} s between frames is not a whole number of frames per second");
+        return Err(Diagnostic::new("export-lerobot", Fault::Recipe, message));
     }
     Ok(fps as u32)
 }
@@ -238,15 +249,18 @@ fn rows_of(
     Ok(rows)
 }
 
-/// Appends the pictures of a flight to its rows; those of some frames count in both `statistics`.
+/// Appends the pictures of a film to the rows of its episode; those of some frames count in both `statistics`.
 fn append_pictures(
-    episode: &ExportedFlight<'_>,
+    (episode, film): (&ExportedFlight<'_>, &PublishedFlight),
+    eye: &Eye,
     max_depth_m: Option<f32>,
     rows: &mut DataRows,
     statistics: &mut [&mut Statistics; 2],
 ) -> Result<()> {
     let step = (episode.frames.len() / LEAST_FRAMES).clamp(1, SAMPLED_FRAMES);
-    episode.each_picture(
+    let (mut pictures, mut depths) = (vec![], vec![]);
+    episode.each_picture_of(
+        film,
         &episode.all_frames(),
         |frame, mut logged| {
             let is_sampled = frame % step == 0;
@@ -260,17 +274,20 @@ fn append_pictures(
             let (depth, sampled) = depth.unzip();
             for it in statistics.iter_mut().filter(|_| rgb.is_some()) {
                 let pixels = rgb.iter().flat_map(|rgb| rgb.as_chunks::<3>().0).step_by(SAMPLED_PIXELS);
-                it.push_picture(tables::PICTURE, 255.0, pixels.map(|pixel| pixel.map(usize::from)));
+                it.push_picture(eye.colours, 255.0, pixels.map(|pixel| pixel.map(usize::from)));
                 let Some(depths) = &sampled else { continue };
                 let steps = |depth: &f32| [(f64::from(*depth) * depth::STATISTICS_PER_M).round_ties_even() as usize];
                 let pixels = depths.iter().step_by(SAMPLED_PIXELS).map(steps);
-                it.push_picture(tables::DEPTH, depth::STATISTICS_PER_M, pixels);
+                it.push_picture(eye.depths, depth::STATISTICS_PER_M, pixels);
             }
-            rows.pictures.push(file);
-            rows.depths.extend(depth);
+            pictures.push(file);
+            depths.extend(depth);
             Ok(())
         },
-    )
+    )?;
+    rows.pictures.push(pictures);
+    rows.depths.push(depths);
+    Ok(())
 }
 
 /// The files of `data`, one of them open.
@@ -298,7 +315,7 @@ impl DataFiles<'_> {
         if let Some(writer) = &mut self.open {
             writer.append(rows)?;
         }
-        self.bytes += rows.pictures.iter().chain(&rows.depths).map(|file| file.len() as u64).sum::<u64>();
+        self.bytes += rows.pictures.iter().chain(&rows.depths).flatten().map(|file| file.len() as u64).sum::<u64>();
         Ok(self.file)
     }
 
@@ -314,15 +331,16 @@ fn write_table<S>(out: &OutFolder, name: &str, table: &Table<S>, rows: &[S], not
 }
 
 /// The content of `meta/info.json`; `totals` are the numbers of episodes, frames and tasks.
-fn info(source: &Source<'_>, split: &str, kind: &Kind, totals: [usize; 3]) -> Value {
+fn info(split: &str, kind: &Kind<'_>, totals: [usize; 3]) -> Value {
     let [episodes, frames, tasks] = totals;
-    let [width, height] = source.flights().next().map_or([0; 2], |flight| [flight.camera.width, flight.camera.height]);
-    let mut features = BTreeMap::from([(
-        tables::PICTURE.to_owned(),
-        json!({"dtype": "image", "shape": [height, width, 3], "names": ["height", "width", "channels"]}),
-    )]);
-    if kind.max_depth_m.is_some() {
-        features.insert(tables::DEPTH.into(), depth::feature([width, height]));
+    let mut features = BTreeMap::new();
+    for eye in &kind.films.eyes {
+        let [width, height] = eye.size_px;
+        let colours = json!({"dtype": "image", "shape": [height, width, 3], "names": ["height", "width", "channels"]});
+        features.insert(eye.colours.to_owned(), colours);
+        if kind.max_depth_m.is_some() {
+            features.insert(eye.depths.to_owned(), depth::feature(eye.size_px));
+        }
     }
     for (name, names) in VECTORS {
         features.insert(name.to_owned(), json!({"dtype": "float32", "shape": [names.len()], "names": names}));
@@ -376,7 +394,8 @@ Each folder is a whole dataset of LeRobot with its own statistics: train with th
 statistics. On the hub, each folder is a repository of its own, with the git tag `v3.0`. Episodes are flights; `meta/episodes` names
 them and has the statistics of each (`stats/...`), from which LeRobot makes those of parts and mixtures. Metres and degrees.
 
-* `observation.images.rgb`: the colours. `task`: the instruction.
+* `observation.images.rgb`: the colours. `task`: the instruction. Films of several cameras that have the same moments are one episode with a
+  feature for each camera, such as `observation.images.front_left`; its other numbers are those of the first camera's film.
 DEPTH
 * `observation.state`: dx, dy, dz, dpitch, dyaw, droll since the frame before, along the axes of the body in this frame (x ahead, y
   right, z up), 0 in the first frame; then pitch and roll. No place and no direction of the map.
@@ -391,6 +410,6 @@ DEPTH
 ";
 
 const DEPTH: &str = "\
-* `observation.images.depth`: metres along the optical axis, 32-bit floats in TIFF files; at most MOST, which is also the sky. LeRobot from
+* `observation.images.depth` (of several cameras: `observation.images.front_left_depth` ...): metres along the optical axis, 32-bit floats in TIFF files; at most MOST, which is also the sky. LeRobot from
   0.6 on gives millimetres unless `depth_output_unit=\"m\"`; 0.4 gives metres.
 ";

@@ -1,9 +1,10 @@
 //! The three tables of LeRobot v3.0: frames, episodes, tasks.
 
+use super::eyes::Eye;
 use super::motion::STEPS;
 use arrow_array::ArrayRef;
 use arrow_array::builder::{FixedSizeListBuilder, Float64Builder};
-use cosfly_schema::tables::{AnyColumn, CellProblem, Column, ImageFile, Kind, Table};
+use cosfly_schema::tables::{AnyColumn, CellProblem, Column, ImageFile, Kind, Table, Value};
 use serde_json::json;
 use std::sync::Arc;
 
@@ -44,10 +45,10 @@ pub struct DataRows {
     pub vectors: Vec<[Vec<f64>; 5]>,
     /// [`SENSORS`] of every frame.
     pub readings: Vec<Vec<f64>>,
-    /// Picture files.
-    pub pictures: Vec<Vec<u8>>,
-    /// Files of depth, where it is wanted.
-    pub depths: Vec<Vec<u8>>,
+    /// Picture files, by camera and frame.
+    pub pictures: Vec<Vec<Vec<u8>>>,
+    /// Files of depth, where it is wanted, by camera and frame.
+    pub depths: Vec<Vec<Vec<u8>>>,
 }
 
 /// An episode.
@@ -114,12 +115,43 @@ impl AnyColumn<DataRows> for SensorColumn {
     }
 }
 
-/// A row per frame; with so many numbers of sensors, and with depth.
-pub fn data(sensed: usize, has_depth: bool) -> Table<DataRows> {
-    const DEPTHS: &dyn AnyColumn<DataRows> =
-        &Column::named(DEPTH, "", |it: &DataRows, i| ImageFile(it.depths[i].clone()));
+/// Column of the files of a camera.
+struct FileColumn {
+    name: &'static str,
+    files: fn(&DataRows) -> &[Vec<Vec<u8>>],
+    camera: usize,
+}
+
+impl AnyColumn<DataRows> for FileColumn {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn unit(&self) -> Option<&'static str> {
+        None
+    }
+
+    fn doc(&self) -> &'static str {
+        ""
+    }
+
+    fn kind(&self) -> Kind {
+        ImageFile::KIND
+    }
+
+    fn nullable(&self) -> bool {
+        ImageFile::NULLABLE
+    }
+
+    fn array(&self, record: &DataRows, rows: usize) -> Result<ArrayRef, CellProblem> {
+        let files = &(self.files)(record)[self.camera][..rows];
+        Ok(ImageFile::array(files.iter().cloned().map(ImageFile).collect()))
+    }
+}
+
+/// A row per frame; with the pictures of these cameras, so many numbers of sensors, and with depth.
+pub fn data(eyes: &[Eye], sensed: usize, has_depth: bool) -> Table<DataRows> {
     const COLUMNS: &[&dyn AnyColumn<DataRows>] = &[
-        &Column::named(PICTURE, "", |it: &DataRows, i| ImageFile(it.pictures[i].clone())),
         &Column::named(VECTORS[0].0, "", |it: &DataRows, i| numbers::<8>(&it.vectors[i][0])),
         &Column::named(VECTORS[1].0, "", |it: &DataRows, i| numbers::<6>(&it.vectors[i][1])),
         &Column::named(VECTORS[2].0, "", |it: &DataRows, i| numbers::<3>(&it.vectors[i][2])),
@@ -131,11 +163,17 @@ pub fn data(sensed: usize, has_depth: bool) -> Table<DataRows> {
         &Column::named("index", "", |it: &DataRows, i| (it.first + i) as u64),
         &Column::named("task_index", "", |it: &DataRows, _| it.task as u64),
     ];
-    let rows = |it: &DataRows| it.pictures.len();
+    let rows = |it: &DataRows| it.vectors.len();
     let mut table = Table { rows_per_group: 200, ..Table::new("data", "", &[], rows, COLUMNS) };
-    table.columns.extend(has_depth.then_some(DEPTHS));
+    // Columns live as long as the program; there are few cameras and few widths.
+    let column = |name, files, camera| -> &'static dyn AnyColumn<DataRows> {
+        Box::leak(Box::new(FileColumn { name, files, camera }))
+    };
+    let numbered = || eyes.iter().enumerate();
+    let colours = numbered().map(|(at, eye)| column(eye.colours, |it| &it.pictures, at));
+    table.columns.splice(0..0, colours);
+    table.columns.extend(numbered().filter(|_| has_depth).map(|(at, eye)| column(eye.depths, |it| &it.depths, at)));
     if sensed > 0 {
-        // Columns live as long as the program; there are few widths.
         table.columns.push(Box::leak(Box::new(SensorColumn(sensed))));
     }
     table
