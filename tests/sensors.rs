@@ -249,6 +249,23 @@ fn a_sensor_reads_along_the_films_of_one_camera_of_a_rig() {
         assert!(info["features"]["observation.images.rgb"].is_null());
     }
     assert_eq!(episodes, 6);
+    // A bag has all films of a flight, each camera at its own times.
+    let all = ["export", dataset.to_str().expect("UTF-8"), "--format", "ros2", "--out", "bags"];
+    cosfly(&all).within(street.path()).run_ok();
+    let bags = crate::support::tree_digests(&street.path().join("bags"));
+    let bags: Vec<&String> = bags.iter().map(|it| &it.0).filter(|path| path.ends_with("metadata.yaml")).collect();
+    assert!(bags.len() == 6 && bags.iter().any(|path| path.contains("/expert-p00000/")), "{bags:?}");
+    for bag in bags {
+        let text = std::fs::read_to_string(street.path().join("bags").join(bag)).expect("a description");
+        let count = |topic: &str| -> usize {
+            let after = text.split(&format!("name: {topic}\n")).nth(1).expect("a topic");
+            after.split("message_count: ").nth(1).and_then(|it| it.lines().next()?.parse().ok()).expect("a count")
+        };
+        let pictures = |name: &str| count(&format!("/camera/{name}/image_raw/compressed"));
+        assert_eq!((count("/odom"), pictures("front_left"), pictures("front_right")), (12, 12, 12));
+        assert_eq!((pictures("slow"), pictures("wide"), count("/camera/wide/detections")), (4, 12, 12));
+        assert!(count("/sensor/inertial_unit") > 400 && count("/sensor/lidar") > 4);
+    }
     let refused = export("*", "all");
     assert!(refused.code == Some(3) && refused.stderr.contains("the times of its frames"), "{}", refused.stderr);
     let refused = export("*-left_front", "none");

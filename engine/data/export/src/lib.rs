@@ -17,6 +17,7 @@
 pub mod called;
 pub mod card;
 pub mod carla_job;
+pub mod films;
 pub mod folder;
 pub mod format;
 pub mod formats;

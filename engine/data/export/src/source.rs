@@ -172,6 +172,24 @@ impl<'a> Source<'a> {
         })
     }
 
+    /// A flight with its rows, beside the one that is visited; it has no captions.
+    ///
+    /// # Errors
+    /// Damage of table `frames`.
+    pub fn exported<'b>(&'b self, flight: &'b PublishedFlight) -> Result<ExportedFlight<'b>> {
+        let frames = self.dataset.frames(self.rows()?, flight)?;
+        Ok(ExportedFlight { flight, frames, captions: vec![], source: self, logs: Mutex::default() })
+    }
+
+    /// Places of the rows of table `frames`, read once.
+    fn rows(&self) -> Result<&RowIndex> {
+        if let Some(index) = self.index.get() {
+            return Ok(index);
+        }
+        let index = self.dataset.row_index("frames")?;
+        Ok(self.index.get_or_init(|| index))
+    }
+
     /// Poses of a flight's expert, which need not be chosen; none where the dataset lacks it.
     ///
     /// # Errors
@@ -179,14 +197,7 @@ impl<'a> Source<'a> {
     pub fn expert_poses(&self, flight: &PublishedFlight) -> Result<Vec<Pose>> {
         let expert = flight.expert_id.as_deref().unwrap_or(&flight.trajectory_id);
         let Some(place) = self.dataset.place(expert) else { return Ok(vec![]) };
-        let index = match self.index.get() {
-            Some(index) => index,
-            None => {
-                let index = self.dataset.row_index("frames")?;
-                self.index.get_or_init(|| index)
-            }
-        };
-        Ok(self.dataset.tracks(index, &[place].into())?.remove(&place).map_or(vec![], |track| track.poses))
+        Ok(self.dataset.tracks(self.rows()?, &[place].into())?.remove(&place).map_or(vec![], |track| track.poses))
     }
 
     /// Readings of the sensors of a flight that are no cameras.

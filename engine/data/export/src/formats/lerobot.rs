@@ -8,6 +8,7 @@ mod statistics;
 mod tables;
 
 use crate::card::ExportCard;
+use crate::films::Films;
 use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::pixels::rgb_of;
@@ -22,7 +23,7 @@ use cosfly_schema::log::reading::LoggedSensor;
 use cosfly_schema::tables::Table;
 use cosfly_write::table_file::TableWriter;
 use episodes::EpisodeFile;
-use eyes::{Eye, Films};
+use eyes::Eye;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -76,8 +77,9 @@ impl Format for LeRobot {
             return Err(Diagnostic::new("export-lerobot", Fault::Recipe, message).hint("add `--depth`"));
         }
         let max_depth_m = options.depth.then_some(options.max_depth_m as f32);
-        let films = Films::of(source)?;
-        let kind = Kind { fps: fps(films.dt_s)?, sensed: sensed(source, &films)?, films, max_depth_m };
+        let films = Films::of(source);
+        let (eyes, dt_s) = Eye::of_all(source, &films)?;
+        let kind = Kind { fps: fps(dt_s)?, sensed: sensed(source, &films)?, films, eyes, max_depth_m };
         for split in source.splits() {
             write_split(options.instructions.language, source, out, split, &kind)?;
         }
@@ -88,8 +90,9 @@ impl Format for LeRobot {
 
 /// Properties that all episodes share.
 struct Kind<'a> {
-    /// The films of each.
+    /// The films of each, and their cameras.
     films: Films<'a>,
+    eyes: Vec<Eye>,
     /// Frames per second.
     fps: u32,
     /// Names of the numbers of all sensors that are no cameras.
@@ -101,7 +104,7 @@ struct Kind<'a> {
 /// Names of the numbers that the sensors of the first flight measured.
 fn sensed(source: &Source<'_>, films: &Films<'_>) -> Result<Vec<String>> {
     let Some(flight) = source.flights().next() else { return Ok(vec![]) };
-    let film = sensing(source, films.of_episode(flight))?.unwrap_or(flight);
+    let film = sensing(source, films.of_flight(flight))?.unwrap_or(flight);
     Ok(source.dataset.log(film)?.sensors().iter().flat_map(names_of).collect())
 }
 
@@ -121,7 +124,7 @@ fn names_of(sensor: &LoggedSensor) -> Vec<String> {
 
 /// The last readings at each frame, those of all sensors one after the other.
 fn sensed_by_frame(source: &Source<'_>, episode: &ExportedFlight<'_>, kind: &Kind<'_>) -> Result<Vec<Vec<f64>>> {
-    let film = sensing(source, kind.films.of_episode(episode.flight))?;
+    let film = sensing(source, kind.films.of_flight(episode.flight))?;
     let sensors = film.map_or(Ok(vec![]), |film| source.readings(film))?;
     let names: Vec<String> = sensors.iter().flat_map(|(sensor, _)| names_of(sensor)).collect();
     let begins = |(_, readings): &SensorReadings| {
@@ -154,14 +157,14 @@ fn write_split(
     split: &str,
     kind: &Kind<'_>,
 ) -> Result<()> {
-    let table = tables::data(&kind.films.eyes, kind.sensed.len(), kind.max_depth_m.is_some());
+    let table = tables::data(&kind.eyes, kind.sensed.len(), kind.max_depth_m.is_some());
     let mut data = DataFiles { out, split, table: &table, file: 0, bytes: 0, open: None };
     let mut statistics = Statistics::default();
     let mut tasks: BTreeMap<String, usize> = BTreeMap::new();
     let (mut task_names, mut count, mut index) = (vec![], 0, 0);
     let path = |name: &str| format!("{split}/meta/{name}");
     let mut episodes = EpisodeFile::new(out.create(&path("episodes/chunk-000/file-000.parquet"))?);
-    source.each_flight_of(&|flight| flight.split == split && kind.films.is_lead(flight), &mut |episode| {
+    source.each_flight_of(&|flight| flight.split == split && kind.films.is_first(flight), &mut |episode| {
         let task = episode.instruction(language).to_owned();
         let task_index = *tasks.entry(task.clone()).or_insert_with(|| {
             task_names.push(task.clone());
@@ -171,7 +174,7 @@ fn write_split(
         let mut own = Statistics::default();
         let mut rows = rows_of(episode, &expert, [count, index, task_index], &mut [&mut own, &mut statistics])?;
         rows.readings = sensed_by_frame(source, episode, kind)?;
-        for (film, eye) in kind.films.of_episode(episode.flight).iter().zip(&kind.films.eyes) {
+        for (film, eye) in kind.films.of_flight(episode.flight).iter().zip(&kind.eyes) {
             append_pictures((episode, film), eye, kind.max_depth_m, &mut rows, &mut [&mut own, &mut statistics])?;
         }
         for statistics in [&mut own, &mut statistics].into_iter().filter(|_| !kind.sensed.is_empty()) {
@@ -334,7 +337,7 @@ fn write_table<S>(out: &OutFolder, name: &str, table: &Table<S>, rows: &[S], not
 fn info(split: &str, kind: &Kind<'_>, totals: [usize; 3]) -> Value {
     let [episodes, frames, tasks] = totals;
     let mut features = BTreeMap::new();
-    for eye in &kind.films.eyes {
+    for eye in &kind.eyes {
         let [width, height] = eye.size_px;
         let colours = json!({"dtype": "image", "shape": [height, width, 3], "names": ["height", "width", "channels"]});
         features.insert(eye.colours.to_owned(), colours);

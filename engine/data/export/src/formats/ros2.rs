@@ -3,6 +3,7 @@
 //! The left-handed world becomes the right-handed frame `map` by [`right_handed`] and nowhere else.
 
 mod bag;
+mod cameras;
 mod cdr;
 mod definitions;
 pub(crate) mod flown;
@@ -11,45 +12,59 @@ mod messages;
 mod readings;
 
 use crate::card::ExportCard;
+use crate::films::Films;
 use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::media::{FOLDER_LIMIT, ending};
 use crate::shared_options::PictureAndTextOptions;
 use crate::source::{ExportedFlight, LidarSweeps, SensorReadings, Source};
 use bag::{Bag, Topic, topics_of_flight};
+use cameras::CameraNames;
 use cosfly_diagnose::Result;
 use cosfly_domain::TARGET_INSTANCE;
 use cosfly_frames::{DQuat, DVec3, Pose, real};
 use cosfly_read::{LoggedFrame, LoggedSweep, PublishedFlight, SeenBody, SightingReader};
 use cosfly_schema::log::reading::LoggedSensor;
 use cosfly_schema::log::{messages::feet_pose, right_handed};
-use messages::{Detected, Header, Motion, OPTICAL, Placed};
+use messages::{Detected, Header, Motion, Placed};
 use readings::ReadingCoder;
+use std::collections::BTreeMap;
 
 /// Bags.
 pub struct Ros2;
 
 /// Time of the first frame, nanoseconds. Time 0 means in ROS that there is no time.
 const START_NS: u64 = 1_000_000_000;
+/// Pictures that are in memory at the same time.
+const MOMENTS: usize = 16;
 
 impl Format for Ros2 {
     const NAME: &'static str = "ros2";
-    const DOC: &'static str = "ROS 2: a bag per flight with pictures, depth, labels, transforms, odometry, detections";
+    const DOC: &'static str =
+        "ROS 2: a bag per flight with pictures of all its cameras, depth, labels, transforms, odometry, detections";
     type Options = PictureAndTextOptions;
 
     fn write(options: &PictureAndTextOptions, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
         let mut bodies = SightingReader::of(source.dataset)?;
+        let films = Films::of(source);
         let mut number = 0;
-        source.each_flight(&mut |episode| {
-            let flight = episode.flight;
-            let folder = format!("{}/{:03}/{}", flight.split, number / FOLDER_LIMIT, flight.trajectory_id);
+        source.each_flight_of(&|flight| films.is_first(flight), &mut |episode| {
+            let (flight, of_flight) = (episode.flight, films.of_flight(episode.flight));
+            let id = if of_flight.len() > 1 { &flight.flight_id } else { &flight.trajectory_id };
+            let folder = format!("{}/{:03}/{id}", flight.split, number / FOLDER_LIMIT);
             number += 1;
-            let place = source.dataset.place(&flight.trajectory_id).unwrap_or_default();
-            let readings = episode.readings()?;
+            let others = of_flight[1..].iter().map(|film| source.exported(film)).collect::<Result<Vec<_>>>()?;
+            let names = CameraNames::of(of_flight);
+            let mut cameras = vec![];
+            for (episode, names) in std::iter::once(episode).chain(&others).zip(&names) {
+                let place = source.dataset.place(&episode.flight.trajectory_id).unwrap_or_default();
+                cameras.push(Film { episode, names, bodies: bodies.at(source.dataset, place)?.to_vec() });
+            }
+            let readings = of_each(&cameras, |film| film.readings(), |sensor| &sensor.name)?;
+            let lidars = of_each(&cameras, |film| film.sweeps(), |lidar| lidar)?;
             let sensors: Vec<LoggedSensor> = readings.iter().map(|(sensor, _)| sensor.clone()).collect();
-            let lidars = episode.sweeps()?;
-            let recording = Recording::of(episode, bodies.at(source.dataset, place)?, &readings, &lidars);
-            let mut bag = Bag::begin(out, folder, topics_of_flight(&sensors, &lidars))?;
+            let mut bag = Bag::begin(out, folder, topics_of_flight(&names, &sensors, &lidars))?;
+            let recording = Recording::of(&cameras, &readings, &lidars);
             recording.write_once(&mut bag, source, episode.instruction(options.instructions.language))?;
             recording.write_frames(&mut bag, options.pictures.every)?;
             bag.finish()
@@ -61,10 +76,34 @@ impl Format for Ros2 {
     }
 }
 
+/// What a camera filmed of a flight.
+struct Film<'a> {
+    episode: &'a ExportedFlight<'a>,
+    names: &'a CameraNames,
+    bodies: Vec<SeenBody>,
+}
+
+/// What the films' logs have of sensors, each sensor from the first film that has it.
+fn of_each<S, T>(
+    films: &[Film<'_>],
+    read: impl Fn(&ExportedFlight<'_>) -> Result<Vec<(S, T)>>,
+    name: impl Fn(&S) -> &String,
+) -> Result<Vec<(S, T)>> {
+    let mut found: Vec<(S, T)> = vec![];
+    for film in films {
+        for it in read(film.episode)? {
+            if found.iter().all(|(known, _)| name(known) != name(&it.0)) {
+                found.push(it);
+            }
+        }
+    }
+    Ok(found)
+}
+
 /// A flight in the frames of ROS.
 struct Recording<'a> {
-    episode: &'a ExportedFlight<'a>,
-    bodies: &'a [SeenBody],
+    /// Its films; the first one has the drone's motion.
+    films: &'a [Film<'a>],
     /// Places of `base_link` in `map`.
     drone: Vec<Placed>,
     /// Places of `target` in `map`; none where nobody is followed.
@@ -86,8 +125,7 @@ struct Pictures {
 }
 
 impl Pictures {
-    fn of(time_ns: u64, logged: &LoggedFrame) -> Self {
-        let header = Header { time_ns, frame: OPTICAL };
+    fn of(header: Header<'_>, logged: &LoggedFrame) -> Self {
         let size = [logged.width, logged.height];
         let format = if ending(&logged.rgb_format) == "png" { "png" } else { "jpeg" };
         let depths: Vec<u8> = logged.depth_m.iter().flat_map(|depth_m| depth_m.to_le_bytes()).collect();
@@ -105,12 +143,8 @@ fn time_ns(flight: &PublishedFlight, frame: usize) -> u64 {
 }
 
 impl<'a> Recording<'a> {
-    fn of(
-        episode: &'a ExportedFlight<'a>,
-        bodies: &'a [SeenBody],
-        sensors: &'a [SensorReadings],
-        lidars: &'a [LidarSweeps],
-    ) -> Self {
+    fn of(films: &'a [Film<'a>], sensors: &'a [SensorReadings], lidars: &'a [LidarSweeps]) -> Self {
+        let episode = films[0].episode;
         let mut readings = vec![];
         for (number, (_, all)) in sensors.iter().enumerate() {
             let at = |(time_ns, values): &'a (u64, Vec<f64>)| (START_NS + time_ns, number, &values[..]);
@@ -124,8 +158,7 @@ impl<'a> Recording<'a> {
         sweeps.sort_by_key(|(time_ns, number, _)| (*time_ns, *number));
         let followed = if episode.flight.target_kind.is_some() { &episode.frames[..] } else { &[] };
         Self {
-            episode,
-            bodies,
+            films,
             drone: episode.frames.iter().map(|row| in_map(&row.pose)).collect(),
             target: followed.iter().map(|row| in_map(&feet_pose(&row.target))).collect(),
             coders: sensors.iter().map(|(sensor, _)| ReadingCoder::of(sensor)).collect(),
@@ -137,43 +170,91 @@ impl<'a> Recording<'a> {
 
     /// Transforms that stay, the town and the instruction.
     fn write_once(&self, bag: &mut Bag<'_>, source: &Source<'_>, instruction: &str) -> Result<()> {
-        let flight = self.episode.flight;
         let still = Placed { position: DVec3::ZERO, rotation: DQuat::IDENTITY };
         let turned = |rotation: DQuat| Placed { rotation, ..still };
-        let mut list = vec![("map", "odom", still), ("camera_link", OPTICAL, turned(right_handed::BODY_FROM_OPTICAL))];
-        if let (false, Some(row)) = (flight.mount.levelled, self.episode.frames.first()) {
-            list.push(("base_link", "camera_link", camera_on_drone(&flight.mount, &row.pose)));
+        let mut list = vec![("map", "odom", still)];
+        for Film { episode, names, .. } in self.films {
+            list.push((&names.link, &names.optical, turned(right_handed::BODY_FROM_OPTICAL)));
+            if let (false, Some(row)) = (episode.flight.mount.levelled, episode.frames.first()) {
+                list.push(("base_link", &names.link, camera_on_drone(&episode.flight.mount, &row.pose)));
+            }
         }
         bag.write(Topic::TfStatic, START_NS, &messages::transforms(START_NS, &list))?;
-        let boxes = source.dataset.log(flight)?.scene()?;
+        let boxes = source.dataset.log(self.films[0].episode.flight)?.scene()?;
         bag.write(Topic::Town, START_NS, &messages::markers(Header { time_ns: START_NS, frame: "map" }, &boxes))?;
         bag.write(Topic::Instruction, START_NS, &messages::string(instruction))
     }
 
+    /// Every `every`-th frame of all films, in the order of their times.
     fn write_frames(&self, bag: &mut Bag<'_>, every: usize) -> Result<()> {
-        let flight = self.episode.flight;
-        let make = |frame: usize, logged: LoggedFrame| Ok(Pictures::of(time_ns(flight, frame), &logged));
+        let mut moments: Vec<(u64, usize, usize)> = vec![];
+        for (number, film) in self.films.iter().enumerate() {
+            let of_film = film.episode.every_nth_frame(every).into_iter();
+            moments.extend(of_film.map(|frame| (time_ns(film.episode.flight, frame), number, frame)));
+        }
+        moments.sort_unstable();
         let (mut rest, mut sweeps) = (&self.readings[..], &self.sweeps[..]);
-        self.episode.each_picture(&self.episode.every_nth_frame(every), make, |frame, pictures| {
-            let due = rest.partition_point(|(at_ns, ..)| *at_ns <= time_ns(flight, frame));
-            self.write_readings(bag, &rest[..due])?;
-            rest = &rest[due..];
-            let due = sweeps.partition_point(|(at_ns, ..)| *at_ns <= time_ns(flight, frame));
-            self.write_sweeps(bag, &sweeps[..due])?;
-            sweeps = &sweeps[due..];
-            self.write_motion(bag, frame)?;
-            let time_ns = time_ns(flight, frame);
-            let header = Header { time_ns, frame: OPTICAL };
-            let info = messages::camera_info(header, &flight.camera, &flight.lens, &flight.mount);
-            bag.write(Topic::CameraInfo, time_ns, &info)?;
-            bag.write(Topic::Image, time_ns, &pictures.colours)?;
-            bag.write(Topic::DepthInfo, time_ns, &info)?;
-            bag.write(Topic::Depth, time_ns, &pictures.depths)?;
-            bag.write(Topic::Labels, time_ns, &pictures.labels)?;
-            bag.write(Topic::Detections, time_ns, &messages::detections(time_ns, &self.detected(frame)))
-        })?;
+        for some in moments.chunks(MOMENTS) {
+            let mut pictures = self.pictures(some)?;
+            for at @ (time_ns, number, frame) in some {
+                let due = rest.partition_point(|(at_ns, ..)| at_ns <= time_ns);
+                self.write_readings(bag, &rest[..due])?;
+                rest = &rest[due..];
+                let due = sweeps.partition_point(|(at_ns, ..)| at_ns <= time_ns);
+                self.write_sweeps(bag, &sweeps[..due])?;
+                sweeps = &sweeps[due..];
+                if *number == 0 {
+                    self.write_motion(bag, *frame)?;
+                }
+                if let Some(pictures) = pictures.remove(at) {
+                    self.write_pictures(bag, *at, &pictures)?;
+                }
+            }
+        }
         self.write_readings(bag, rest)?;
         self.write_sweeps(bag, sweeps)
+    }
+
+    /// Pictures at some moments: time, number of the film, and frame.
+    fn pictures(&self, moments: &[(u64, usize, usize)]) -> Result<BTreeMap<(u64, usize, usize), Pictures>> {
+        let mut found = BTreeMap::new();
+        for (number, Film { episode, names, .. }) in self.films.iter().enumerate() {
+            let frames: Vec<usize> = moments.iter().filter(|it| it.1 == number).map(|it| it.2).collect();
+            let header = |frame| Header { time_ns: time_ns(episode.flight, frame), frame: &names.optical };
+            let make = |frame: usize, logged: LoggedFrame| Ok(Pictures::of(header(frame), &logged));
+            let take = |frame: usize, pictures| {
+                found.insert((time_ns(episode.flight, frame), number, frame), pictures);
+                Ok(())
+            };
+            match number {
+                0 => episode.each_picture(&frames, make, take)?,
+                _ => episode.each_picture_silently(&frames, make, take)?,
+            }
+        }
+        Ok(found)
+    }
+
+    /// What a camera has at a moment; its place on the drone where that changes and no other message has it.
+    fn write_pictures(
+        &self,
+        bag: &mut Bag<'_>,
+        (time_ns, number, frame): (u64, usize, usize),
+        pictures: &Pictures,
+    ) -> Result<()> {
+        let film @ Film { episode, names, .. } = &self.films[number];
+        let flight = episode.flight;
+        if number > 0 && flight.mount.levelled {
+            let placed = camera_on_drone(&flight.mount, &episode.frames[frame].pose);
+            bag.write(Topic::Tf, time_ns, &messages::transforms(time_ns, &[("base_link", &names.link, placed)]))?;
+        }
+        let header = Header { time_ns, frame: &names.optical };
+        let info = messages::camera_info(header, &flight.camera, &flight.lens, &flight.mount);
+        bag.write(Topic::CameraInfo(number), time_ns, &info)?;
+        bag.write(Topic::Image(number), time_ns, &pictures.colours)?;
+        bag.write(Topic::DepthInfo(number), time_ns, &info)?;
+        bag.write(Topic::Depth(number), time_ns, &pictures.depths)?;
+        bag.write(Topic::Labels(number), time_ns, &pictures.labels)?;
+        bag.write(Topic::Detections(number), time_ns, &messages::detections(header, &film.detected(frame)))
     }
 
     /// Readings, and the places of sensors that know theirs.
@@ -200,12 +281,13 @@ impl<'a> Recording<'a> {
 
     /// Clock, transforms and odometry.
     fn write_motion(&self, bag: &mut Bag<'_>, frame: usize) -> Result<()> {
-        let flight = self.episode.flight;
+        let Film { episode, names, .. } = &self.films[0];
+        let flight = episode.flight;
         let time_ns = time_ns(flight, frame);
         bag.write(Topic::Clock, time_ns, &messages::clock(time_ns))?;
         let mut list = vec![("odom", "base_link", self.drone[frame])];
         if flight.mount.levelled {
-            list.push(("base_link", "camera_link", camera_on_drone(&flight.mount, &self.episode.frames[frame].pose)));
+            list.push(("base_link", &names.link, camera_on_drone(&flight.mount, &episode.frames[frame].pose)));
         }
         list.extend(self.target.get(frame).map(|placed| ("map", "target", *placed)));
         bag.write(Topic::Tf, time_ns, &messages::transforms(time_ns, &list))?;
@@ -219,7 +301,9 @@ impl<'a> Recording<'a> {
         }
         bag.write(Topic::TargetOdometry, time_ns, &odometry("map", "target", &self.target))
     }
+}
 
+impl Film<'_> {
     /// The target, then the other bodies of a frame.
     fn detected(&self, frame: usize) -> Vec<Detected<'_>> {
         let kind = self.episode.flight.target_kind.as_deref().unwrap_or_default();
@@ -303,6 +387,11 @@ the label of whose only dimension names the quantities. `/tf` has the true place
 place at the beginning of the sweep |
 | `/town`* | `visualization_msgs/MarkerArray` | boxes of obstacles near the flight |
 | `/instruction`* | `std_msgs/String` | what the drone is told |
+
+Where several cameras filmed a flight, its bag has all of them: topics `/camera/NAME/camera_info`, `/camera/NAME/image_raw/compressed`,
+`/camera/NAME/depth/...`, `/camera/NAME/semantic/image_raw` and `/camera/NAME/detections`, frames `NAME_link` and `NAME_optical_frame`, each
+camera at its own times. Motion is that of the film with the most frames a second; a sensor that was read along several films is that of the
+first one.
 
 Frames are those of REP 103 and REP 105: x ahead, y left, z up, right-handed; the optical frame is x right, y down, z ahead. A point
 (x, y, z) of the dataset's left-handed world is (x, -y, z) in `map`; yaw and pitch change their sign. The origin of `target` is

@@ -1,5 +1,6 @@
 //! A bag: an MCAP file of messages, and the `metadata.yaml` that ROS 2 looks for beside it.
 
+use super::cameras::CameraNames;
 use super::definitions::whole_definition;
 use super::readings::ReadingCoder;
 use crate::folder::OutFolder;
@@ -30,18 +31,18 @@ pub enum Topic {
     Odometry,
     /// Pose and motion of the target.
     TargetOdometry,
-    /// Camera of the colours.
-    CameraInfo,
-    /// Colours.
-    Image,
-    /// Camera of the depths.
-    DepthInfo,
-    /// Depths.
-    Depth,
-    /// Labels.
-    Labels,
-    /// Boxes and ids of bodies.
-    Detections,
+    /// Camera of the colours, by the number of the camera.
+    CameraInfo(usize),
+    /// Colours, by the number of the camera.
+    Image(usize),
+    /// Camera of the depths, by the number of the camera.
+    DepthInfo(usize),
+    /// Depths, by the number of the camera.
+    Depth(usize),
+    /// Labels, by the number of the camera.
+    Labels(usize),
+    /// Boxes and ids of bodies, by the number of the camera.
+    Detections(usize),
     /// Readings of the flight's sensor of this number.
     Sensor(usize),
     /// Sweeps of the flight's lidar of this number.
@@ -67,8 +68,8 @@ pub type NamedTopic = (Topic, String, &'static str, bool);
 
 use Topic as T;
 
-/// Topics of every flight of a dataset.
-const TOPICS: [(Topic, &str, &str, bool); 13] = [
+/// Topics of every flight of a dataset beside those of its cameras.
+const TOPICS: [(Topic, &str, &str, bool); 7] = [
     (T::TfStatic, "/tf_static", "tf2_msgs/TFMessage", true),
     (T::Town, "/town", "visualization_msgs/MarkerArray", true),
     (T::Instruction, "/instruction", "std_msgs/String", true),
@@ -76,13 +77,21 @@ const TOPICS: [(Topic, &str, &str, bool); 13] = [
     (T::Tf, "/tf", "tf2_msgs/TFMessage", false),
     (T::Odometry, "/odom", "nav_msgs/Odometry", false),
     (T::TargetOdometry, "/target/odom", "nav_msgs/Odometry", false),
-    (T::CameraInfo, "/camera/camera_info", "sensor_msgs/CameraInfo", false),
-    (T::Image, "/camera/image_raw/compressed", "sensor_msgs/CompressedImage", false),
-    (T::DepthInfo, "/camera/depth/camera_info", "sensor_msgs/CameraInfo", false),
-    (T::Depth, "/camera/depth/image_raw", "sensor_msgs/Image", false),
-    (T::Labels, "/camera/semantic/image_raw", "sensor_msgs/Image", false),
-    (T::Detections, "/detections", "vision_msgs/Detection2DArray", false),
 ];
+
+/// Topics of the camera of this number: below `/camera` or, of one of several, below `/camera/NAME`.
+fn topics_of_camera(number: usize, names: &CameraNames) -> [NamedTopic; 6] {
+    let below = |topic: Topic, name: &str, kind: &'static str| (topic, format!("{}/{name}", names.topics), kind, false);
+    let detections = if names.is_only() { "/detections".to_owned() } else { format!("{}/detections", names.topics) };
+    [
+        below(T::CameraInfo(number), "camera_info", "sensor_msgs/CameraInfo"),
+        below(T::Image(number), "image_raw/compressed", "sensor_msgs/CompressedImage"),
+        below(T::DepthInfo(number), "depth/camera_info", "sensor_msgs/CameraInfo"),
+        below(T::Depth(number), "depth/image_raw", "sensor_msgs/Image"),
+        below(T::Labels(number), "semantic/image_raw", "sensor_msgs/Image"),
+        (T::Detections(number), detections, "vision_msgs/Detection2DArray", false),
+    ]
+}
 
 /// Quality of service of topics whose last message stays: keep the last one, reliable, transient local.
 const LATCHED: &str = "\
@@ -119,13 +128,14 @@ pub struct Bag<'a> {
     times_ns: Option<[u64; 2]>,
 }
 
-/// Topics of a flight of a dataset with these sensors and lidars.
-pub fn topics_of_flight(sensors: &[LoggedSensor], lidars: &[LidarSweeps]) -> Vec<NamedTopic> {
+/// Topics of a flight of a dataset with these cameras, sensors and lidars.
+pub fn topics_of_flight(cameras: &[CameraNames], sensors: &[LoggedSensor], lidars: &[LidarSweeps]) -> Vec<NamedTopic> {
     let own = TOPICS.into_iter().map(|(topic, name, kind, is_latched)| (topic, name.to_owned(), kind, is_latched));
     let of_lidar = |(number, (name, _)): (usize, &LidarSweeps)| {
         (Topic::Lidar(number), format!("{}{name}", reading::TOPICS), "sensor_msgs/PointCloud2", false)
     };
-    own.chain(topics_of_sensors(sensors)).chain(lidars.iter().enumerate().map(of_lidar)).collect()
+    let of_cameras = cameras.iter().enumerate().flat_map(|(number, names)| topics_of_camera(number, names));
+    own.chain(of_cameras).chain(topics_of_sensors(sensors)).chain(lidars.iter().enumerate().map(of_lidar)).collect()
 }
 
 /// Topics of these sensors.

@@ -22,7 +22,7 @@ const TOPICS: [(Topic, &str, &str, bool); 14] = [
     (Topic::Tf, "/tf", "tf2_msgs/TFMessage", false),
     (Topic::Odometry, "/odom", "nav_msgs/Odometry", false),
     (Topic::TargetOdometry, "/target/odom", "nav_msgs/Odometry", false),
-    (Topic::CameraInfo, "/camera/camera_info", "sensor_msgs/CameraInfo", false),
+    (Topic::CameraInfo(0), "/camera/camera_info", "sensor_msgs/CameraInfo", false),
     (Topic::Command, "/cmd_vel", "geometry_msgs/TwistStamped", false),
     (Topic::Action, "/flight/action", "std_msgs/Float64MultiArray", false),
     (Topic::Step, "/flight/step", "std_msgs/Float64MultiArray", false),
@@ -120,7 +120,7 @@ impl<'a> Flown<'a> {
         let walked = motion(&self.target, number, self.dt_s);
         bag.write(Topic::TargetOdometry, time_ns, &messages::odometry(header("map"), "target", &target, &walked))?;
         let info = messages::camera_info(header(OPTICAL), &self.log.camera, &Lens::default(), &Mount::default());
-        bag.write(Topic::CameraInfo, time_ns, &info)?;
+        bag.write(Topic::CameraInfo(0), time_ns, &info)?;
         match step.outcome.action[..] {
             [ahead, right, up, pitch_deg_s, yaw_deg_s] => {
                 let (pitch, yaw) = (pitch_deg_s.to_radians(), yaw_deg_s.to_radians());

@@ -224,8 +224,7 @@ pub fn image(header: Header<'_>, [width, height]: [u32; 2], encoding: &str, byte
 }
 
 /// `vision_msgs/Detection2DArray`: boxes around visible pixels. The middle of the top-left pixel is (0, 0).
-pub fn detections(time_ns: u64, bodies: &[Detected<'_>]) -> Vec<u8> {
-    let header = Header { time_ns, frame: OPTICAL };
+pub fn detections(header: Header<'_>, bodies: &[Detected<'_>]) -> Vec<u8> {
     let mut cdr = Cdr::new();
     cdr.header(header);
     cdr.u32(bodies.len() as u32);
