@@ -20,7 +20,7 @@ pub fn section(report: &Report) -> String {
     }
     text.push_str("</dl>");
     text.push_str(
-        "<p class=\"note\">A model that takes the person in the middle, or the tallest one, for the target needs no instruction and no \
+        "<p class=\"note\">A model that takes the person or vehicle in the middle, or the tallest one, for the target needs no instruction and no \
          memory. An AUC is the probability that a target has more of a sign than somebody else: 0.5 tells nothing. Who is followed is \
          near the camera and in view; in the same place are people as far away and as far from the middle, seen from feet to head.</p>",
     );
@@ -32,10 +32,10 @@ fn rows(figures: &ShortcutFigures) -> Vec<(&'static str, String, String)> {
     let mut rows = vec![];
     if let Some(share) = figures.target_nearest_the_centre {
         let frames = format!("of {} expert frames that show it", grouped(figures.frames));
-        rows.push(("Target is the person nearest to the centre", percent(share), frames));
+        rows.push(("Of its kind, the target is nearest to the centre", percent(share), frames));
     }
     if let Some(nearer) = figures.mean_people_nearer {
-        rows.push(("People nearer to the centre", format!("{nearer:.2}"), "mean over these frames".to_owned()));
+        rows.push(("Others of its kind nearer to the centre", format!("{nearer:.2}"), "mean over these frames".to_owned()));
     }
     for (name, probe, against) in [
         ("Place, AUC", figures.place, "others in the same frame"),

@@ -195,7 +195,7 @@ fn shortcuts(figures: &ShortcutFigures) -> String {
     if let (Some(share), Some(nearer)) = (figures.target_nearest_the_centre, figures.mean_people_nearer) {
         let _ = writeln!(
             text,
-            "the target is the person nearest to the picture's centre in {:.1} % of {}; {nearer:.2} people are nearer on average",
+            "of its kind, the target is nearest to the picture's centre in {:.1} % of {}; {nearer:.2} others are nearer on average",
             100.0 * share,
             count(figures.frames, "expert frame")
         );
