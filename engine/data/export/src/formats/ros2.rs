@@ -234,7 +234,7 @@ impl<'a> Recording<'a> {
         Ok(found)
     }
 
-    /// What a camera has at a moment; its place on the drone where that changes and no other message has it.
+    /// What a camera has at a moment, and the place of the drone, since the first film may have no frame then.
     fn write_pictures(
         &self,
         bag: &mut Bag<'_>,
@@ -243,9 +243,13 @@ impl<'a> Recording<'a> {
     ) -> Result<()> {
         let film @ Film { episode, names, .. } = &self.films[number];
         let flight = episode.flight;
-        if number > 0 && flight.mount.levelled {
-            let placed = camera_on_drone(&flight.mount, &episode.frames[frame].pose);
-            bag.write(Topic::Tf, time_ns, &messages::transforms(time_ns, &[("base_link", &names.link, placed)]))?;
+        if number > 0 {
+            let drone = &episode.frames[frame].pose;
+            let mut list = vec![("odom", "base_link", in_map(drone))];
+            if flight.mount.levelled {
+                list.push(("base_link", &names.link, camera_on_drone(&flight.mount, drone)));
+            }
+            bag.write(Topic::Tf, time_ns, &messages::transforms(time_ns, &list))?;
         }
         let header = Header { time_ns, frame: &names.optical };
         let info = messages::camera_info(header, &flight.camera, &flight.lens, &flight.mount);

@@ -35,7 +35,11 @@ fn rows(figures: &ShortcutFigures) -> Vec<(&'static str, String, String)> {
         rows.push(("Of its kind, the target is nearest to the centre", percent(share), frames));
     }
     if let Some(nearer) = figures.mean_people_nearer {
-        rows.push(("Others of its kind nearer to the centre", format!("{nearer:.2}"), "mean over these frames".to_owned()));
+        rows.push((
+            "Others of its kind nearer to the centre",
+            format!("{nearer:.2}"),
+            "mean over these frames".to_owned(),
+        ));
     }
     for (name, probe, against) in [
         ("Place, AUC", figures.place, "others in the same frame"),
