@@ -165,7 +165,7 @@ fn flights_of_policies_have_the_readings_that_are_asked_for() {
 #[test]
 fn sensors_that_are_not_there_and_names_that_are_taken_are_refused_with_the_way_out() {
     let refused = |second: &str, words: &[&str]| {
-        let printed = cosfly(&["run", "recipe.toml"]).within(street(second).path()).run();
+        let printed = cosfly(&["plan", "recipe.toml"]).within(street(second).path()).run();
         assert_eq!(printed.code, Some(3), "{}", printed.stderr);
         let said = printed.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
         words.iter().for_each(|word| assert!(said.contains(word), "{word}: {}", printed.stderr));
@@ -173,7 +173,7 @@ fn sensors_that_are_not_there_and_names_that_are_taken_are_refused_with_the_way_
     refused("table = \"frames\"", &["reserved for the dataset's own tables"]);
     refused("rate_hz = 0.0", &["rate_hz"]);
     refused("table = \"Nose\"", &["table"]);
-    refused("", &["two stages give `laser_altimeter`", "`table`"]);
+    refused("", &["gets `laser_altimeter` from `altitude` and from `nose`", "`table`"]);
     let pattern = "pattern = { elevations_deg = [0], shots_hz = 1000, range_m = [0, 50] }";
     for (kind, keys, word) in [
         ("scan", "lidar = \"vlp61\"", "`vlp16`"),

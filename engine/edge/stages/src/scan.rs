@@ -62,6 +62,7 @@ impl StageKind for Scan {
             items: ItemRule::PerInput("frames"),
             bytes_per_item: 200_000_000,
             files_per_item: 2,
+            gives: Some(source.name.clone()),
             ..StageProperties::new(self.name(), StageRole::Speaks, EXTRAS)
         };
         Ok(single(ScanStage { config, pattern, source, properties, scene: Memo::default() }))

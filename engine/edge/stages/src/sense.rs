@@ -66,6 +66,7 @@ impl StageKind for Sense {
             items: ItemRule::PerInput("frames"),
             bytes_per_item: 20_000,
             files_per_item: 2,
+            gives: Some(source.name.clone()),
             ..StageProperties::new(self.name(), StageRole::Speaks, EXTRAS)
         };
         Ok(single(SenseStage { config, sensor, source, properties }))

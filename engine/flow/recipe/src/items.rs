@@ -69,9 +69,10 @@ impl ItemReader<'_> {
                 Fan::Gather => at_port.arrivals,
                 Fan::Group => {
                     let grouped = groups.sorted(self.done, at_port.arrivals);
-                    bounds = grouped.1;
+                    bounds.clone_from(&grouped.1);
                     if matches!(properties.items, ItemRule::PerInput(_)) {
                         self.check_even(&wire, &items, &bounds)?;
+                        self.check_gifts(&wire, &grouped.0, &bounds)?;
                     }
                     grouped.0
                 }
@@ -223,6 +224,24 @@ impl ItemReader<'_> {
             "let the stages at `inputs.{port}` read all that this stage reads: a list, such as `inputs.frames = [...]`"
         );
         Err(self.texts.problem("recipe-items-differ", &wire.place, message).hint(hint))
+    }
+
+    /// Rejects a port of extras that has two of one name for an item.
+    fn check_gifts(&self, wire: &Wire, arrivals: &[Arrival], bounds: &[usize]) -> Result<(), Box<Diagnostic>> {
+        for of_item in bounds.windows(2).filter_map(|pair| arrivals.get(pair[0]..pair[1])) {
+            let mut givers: BTreeMap<&str, &str> = BTreeMap::new();
+            for RecipeStage { name, stage, .. } in of_item.iter().map(|arrival| &self.done[arrival.stage]) {
+                let Some(gives) = &stage.properties().gives else { continue };
+                if let Some(first) = givers.insert(gives, name.as_str()) {
+                    let port = wire.port.name;
+                    let message =
+                        format!("`inputs.{port}` of `{}` gets `{gives}` from `{first}` and from `{name}`", self.stage);
+                    let hint = "let one of them give it another name (a sensor: `table`), or connect one of them only";
+                    return Err(self.texts.problem("recipe-items-same", &wire.place, message).hint(hint));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Error for two ports that must have the same items, or for a port and the stage's own items.

@@ -33,6 +33,9 @@ pub struct StageProperties {
     pub intermediate: &'static [&'static str],
     /// Requests that an item may send to a service outside, for `cosfly plan`.
     pub asks: Option<Asks>,
+    /// Name that a dataset has for what the stage makes of an item, such as a table; a port that gathers extras takes each name once an
+    /// item. Not part of the key.
+    pub gives: Option<String>,
     /// Role of the stage; not part of the key.
     pub role: StageRole,
     /// Resources of one item, for engines on other machines; not part of the key.
@@ -54,6 +57,7 @@ impl StageProperties {
             files_per_item: 1,
             intermediate: &[],
             asks: None,
+            gives: None,
             role,
             resources: Resources::default(),
         }

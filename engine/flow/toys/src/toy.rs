@@ -184,6 +184,7 @@ fn toy_stage(toy: &Toy, earlier: &[RecipeStage]) -> Result<RecipeStage> {
         files_per_item: 1,
         intermediate: if toy.packs { &[PACK] } else { &[] },
         asks: None,
+        gives: None,
         role: StageRole::Changes,
         resources: Resources { memory_mib: 0, batch: 1 },
     };

@@ -28,6 +28,7 @@ impl Film {
             files_per_item: 1,
             intermediate: &[],
             asks: None,
+            gives: None,
             role: StageRole::Changes,
             resources: Resources::default(),
         }

@@ -68,6 +68,7 @@ impl Toy {
             files_per_item: 1,
             intermediate: &[],
             asks: None,
+            gives: None,
             role: StageRole::Changes,
             resources: Resources::default(),
         }

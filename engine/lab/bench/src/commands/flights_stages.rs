@@ -118,6 +118,7 @@ impl StageKind for Toy {
             files_per_item: 2,
             intermediate: if self.makes == Makes::Films { &["pack"] } else { &[] },
             asks: None,
+            gives: None,
             role,
             resources: Resources::default(),
         };
