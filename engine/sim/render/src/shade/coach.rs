@@ -9,7 +9,7 @@ use cosfly_materials::pattern::{NoiseTexture, Noises, band, floor_int, hash, lea
 use cosfly_materials::vector::Vec3;
 
 /// Half the width of a gap between two panels of sheet, metres.
-const HALF_GAP_M: f32 = 0.006;
+const HALF_GAP_M: f32 = 0.004;
 /// Dust of roads.
 const DUST: Vec3 = Vec3::new(0.17, 0.15, 0.125);
 /// Red glass of lamps at the tail, and how much they glow at night.

@@ -43,6 +43,8 @@ pub struct Mirror {
     ground: f32,
     /// Cosine below which it does not graze: no more than bent sheet within a pixel does.
     flattest: f32,
+    /// How sharply roofs and the road end in it: bent sheet shows them over some pixels.
+    crisp: f32,
 }
 
 impl Mirror {
@@ -56,6 +58,7 @@ impl Mirror {
         clouds: 0.0,
         ground: 0.0,
         flattest: 0.0,
+        crisp: 1.0,
     };
     /// Panes and paint of houses and things.
     pub const PANE: Self = Self { from_above: 0.30, along: 0.9, ..Self::FILM };
@@ -70,6 +73,7 @@ impl Mirror {
         clouds: 1.0,
         ground: 0.65,
         flattest: 0.12,
+        crisp: 0.3,
     };
 }
 
@@ -122,7 +126,7 @@ simd_kernel! {
         noise: &NoiseTexture,
     ) {
         let (light, tables, frame) = (*light, grid.0, *grid.1);
-        let Mirror { from_above, along, image, sharp, sky, clouds, ground, flattest } = mirror;
+        let Mirror { from_above, along, image, sharp, sky, clouds, ground, flattest, crisp } = mirror;
         // An overcast sky is three times as bright overhead as at the horizon (CIE 110); the drawn one is even.
         let veil = clouds * smoothstep(0.05, 0.95, light.clouds);
         let mirrors_ground = ground > 0.0;
@@ -147,7 +151,7 @@ simd_kernel! {
                 let there = frame.place(middle.x + out.x * level_m, middle.y + out.y * level_m);
                 let roof_m = 26.0 * (1.0 - there.sky(tables));
                 let height_m = middle.z - there.ground_m(tables) + out.z * level_m;
-                let above = share(0.5 + (height_m - roof_m) * 0.16);
+                let above = share(0.5 + (height_m - roof_m) * (0.16 * crisp));
                 let open = (0.16 + 0.84 * above) * (0.45 + 0.55 * shared.sky[k]);
                 // Lamps stand near the horizon of what a street mirrors.
                 let level = 1.0 - share(1.4 * out.z);
@@ -163,7 +167,7 @@ simd_kernel! {
                 let overhead = 1.0 + veil * (0.86 * most(out.z, 0.0) - 0.57);
                 let far = light.sky(out) * (open * sky * cloud * overhead) + near;
                 let seen = if mirrors_ground {
-                    let below = share(0.5 - 0.5 * height_m);
+                    let below = share(0.5 - 0.5 * crisp * height_m);
                     far.lerp(ground * (0.45 + 0.55 * shared.sky[k]) + lit_by_lamps * shared.lamps[k], below)
                 } else {
                     far
