@@ -56,7 +56,7 @@ impl StageKind for Scan {
         let mut canonical = parameters::canonical(&config);
         canonical["version"] = source.version.clone().into();
         let properties = StageProperties {
-            version: 4,
+            version: 5,
             parameters: canonical,
             inputs: self.ports(),
             items: ItemRule::PerInput("frames"),

@@ -9,6 +9,7 @@
 
 pub mod building_form;
 pub mod building_forms;
+mod crown_lobes;
 pub mod drawn_shapes;
 pub mod dry_days;
 pub mod facade;

@@ -43,6 +43,8 @@ pub(crate) struct CrownSpan {
     pub reach_m: f32,
     /// Twigs without leaves.
     pub is_bare: bool,
+    /// How fine its leaves are, see [`cosfly_materials::leaves::Leaves::fine`].
+    pub fine: f32,
     pub outline: LeafCrown,
 }
 
