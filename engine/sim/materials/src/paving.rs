@@ -1,11 +1,12 @@
-//! Squares and streets for people: laid in slabs, setts, clinker or chequers with bands of stone and slotted drains.
+//! Squares and streets for people: laid in slabs, setts in rows or arcs, or clinker, with bands of stone, mended pieces
+//! and slotted drains.
 //!
 //! Ground for people that touches is laid alike; each piece of it along its own longest side.
 
 use super::kerbs::Kerbs;
 use super::lanes::{Block, PendingFours, Shared, WIDE, get, groups, set};
 use super::pattern::{
-    NoiseLevels, NoiseTexture, Noises, band, floor_int, hash, lerp, most, one_if, smoothstep, stripes, unit,
+    NoiseLevels, NoiseTexture, Noises, band, floor_int, hash, most, one_if, smoothstep, stripes, unit,
 };
 use super::square::Square;
 use super::vector::Vec3;
@@ -14,14 +15,16 @@ use cosfly_frames::{DVec2, simd_kernel};
 use cosfly_town::polygons::{PolygonIndex, twice_area_m2};
 
 /// A kind of paving.
+#[derive(Clone, Copy)]
 struct Kind {
     /// Length and width of a stone, metres, and the share by which each row is moved on.
     stone_m: [f32; 2],
     bond: f32,
-    /// Linear RGB, differences between stones, and the share by which every second stone is darker.
+    /// How far rows bend to arcs, metres; 0 where they are straight.
+    rise_m: f32,
+    /// Linear RGB, and differences between stones.
     colour: [f32; 3],
     spread: f32,
-    chequer: f32,
     /// Distance of bands across and along the rows, metres, and their linear RGB.
     bands_m: [f32; 2],
     band: [f32; 3],
@@ -32,9 +35,9 @@ const KINDS: [Kind; 4] = [
     Kind {
         stone_m: [0.9, 0.6],
         bond: 0.5,
+        rise_m: 0.0,
         colour: [0.33, 0.295, 0.245],
         spread: 0.2,
-        chequer: 0.0,
         bands_m: [7.2, FAR_M],
         band: [0.17, 0.165, 0.16],
     },
@@ -42,9 +45,9 @@ const KINDS: [Kind; 4] = [
     Kind {
         stone_m: [0.16, 0.14],
         bond: 0.5,
+        rise_m: 0.0,
         colour: [0.205, 0.2, 0.195],
         spread: 0.5,
-        chequer: 0.0,
         bands_m: [5.2, 5.6],
         band: [0.40, 0.385, 0.36],
     },
@@ -52,21 +55,21 @@ const KINDS: [Kind; 4] = [
     Kind {
         stone_m: [0.22, 0.11],
         bond: 0.5,
+        rise_m: 0.0,
         colour: [0.235, 0.125, 0.085],
         spread: 0.45,
-        chequer: 0.0,
         bands_m: [FAR_M, 6.6],
         band: [0.34, 0.325, 0.30],
     },
-    // Large slabs, light and dark.
+    // Small setts in arcs, with gutters of dark stone along them.
     Kind {
-        stone_m: [1.2, 1.2],
-        bond: 0.0,
-        colour: [0.38, 0.37, 0.35],
-        spread: 0.14,
-        chequer: 0.34,
-        bands_m: [FAR_M, FAR_M],
-        band: [0.3, 0.3, 0.3],
+        stone_m: [0.12, 0.11],
+        bond: 0.5,
+        rise_m: 0.24,
+        colour: [0.215, 0.197, 0.18],
+        spread: 0.5,
+        bands_m: [FAR_M, 5.4],
+        band: [0.155, 0.15, 0.145],
     },
 ];
 /// Width of bands, and of drains beside every third one, metres.
@@ -74,6 +77,12 @@ const BAND_M: f32 = 0.5;
 const DRAIN_M: f32 = 0.14;
 /// Width of joints, metres.
 const JOINT_M: f32 = 0.012;
+/// Width of arcs, metres.
+const ARC_M: f32 = 1.5;
+/// Sides of the pieces of ground that have at most one mended patch, metres; the share that has one, and how its stones differ.
+const PIECE_M: [f32; 2] = [6.3, 4.7];
+const MENDED: f32 = 0.3;
+const MENDED_TONE: f32 = 0.38;
 /// No bands.
 const FAR_M: f32 = 1e4;
 /// Distance of drains where there are no bands across, metres.
@@ -194,13 +203,13 @@ struct Laid {
     has_bands: [f32; 2],
     drains_m: f32,
     bond: f32,
+    rise_m: f32,
     spread: f32,
-    chequer: f32,
 }
 
 impl Laid {
     #[inline(always)]
-    fn new(&Kind { stone_m, bond, colour: [r, g, b], spread, chequer, bands_m, band }: &Kind) -> Self {
+    fn new(&Kind { stone_m, bond, rise_m, colour: [r, g, b], spread, bands_m, band }: &Kind) -> Self {
         Self {
             stone: Vec3::new(r, g, b),
             band: Vec3::new(band[0], band[1], band[2]),
@@ -209,15 +218,16 @@ impl Laid {
             has_bands: [one_if(bands_m[0] < FAR_M), one_if(bands_m[1] < FAR_M)],
             drains_m: if bands_m[0] < FAR_M { 3.0 * bands_m[0] } else { DRAINS_M },
             bond,
+            rise_m,
             spread,
-            chequer,
         }
     }
 
     /// Albedo at a place along and across the rows, in metres, where pixels are `size` metres wide.
     #[inline(always)]
     fn albedo(&self, [u, v]: [f32; 2], [rough, worn]: [f32; 2], size: f32) -> Vec3 {
-        let across = v * self.per_stone[1];
+        let from_arc = u * (1.0 / ARC_M) - floor_int(u * (1.0 / ARC_M)) as f32 - 0.5;
+        let across = (v - self.rise_m * 4.0 * from_arc * from_arc) * self.per_stone[1];
         let row = floor_int(across);
         let along = u * self.per_stone[0] + self.bond * (row & 1) as f32;
         let column = floor_int(along);
@@ -226,8 +236,9 @@ impl Laid {
         let joint = most(stripes(along, 0.0, joints[0], size_u), stripes(across, 0.0, joints[1], size_v));
         let near = 1.0 - smoothstep(0.3, 1.0, size_v);
         let own = unit(hash(column as u32, row as u32 ^ 0x2c1b)) - 0.5;
-        let dark = self.chequer * lerp(0.5, ((column.wrapping_add(row)) & 1) as f32, near);
-        let light = (1.0 + self.spread * own * near + 0.35 * rough + 0.35 * worn) * (1.0 - dark);
+        // Arcs rise to their middles and are worn there.
+        let crest = 0.6 * self.rise_m * (0.33 - 4.0 * from_arc * from_arc) * (1.0 - smoothstep(0.3, 1.2, size));
+        let light = (1.0 + crest + self.spread * own * near + 0.35 * rough + 0.35 * worn) * mended([u, v], size);
         let [across_share, along_share] = self.per_band.map(|per_m| BAND_M * per_m);
         let bands = most(
             self.has_bands[0] * stripes(u * self.per_band[0], 0.0, across_share, size * self.per_band[0]),
@@ -236,10 +247,26 @@ impl Laid {
         let beside = u - self.drains_m * floor_int(u / self.drains_m) as f32 - 2.0 * BAND_M;
         let drain = band(beside, 0.0, DRAIN_M, size);
         let slot = stripes(v * 16.0, 0.0, 0.45, size * 16.0);
-        let stone = self.stone * (light * (1.0 - 0.45 * joint));
+        // Some stones are warmer than others.
+        let warm = 0.3 * self.spread * near * (2.0 * own * own.abs() - 0.5 * rough);
+        let hue = Vec3::new(self.stone.x * (1.0 + warm), self.stone.y, self.stone.z * (1.0 - warm));
+        let stone = hue * (light * (1.0 - 0.45 * joint));
         let stripe = self.band * (1.0 + 0.4 * rough + 0.3 * worn);
         stone.lerp(stripe, bands).lerp(Vec3::splat(0.14 - 0.1 * slot), drain)
     }
+}
+
+/// Light of stones as a share of that of most: those of mended patches are newer or older.
+#[inline(always)]
+fn mended([u, v]: [f32; 2], size: f32) -> f32 {
+    let (across, along) = (u * (1.0 / PIECE_M[0]), v * (1.0 / PIECE_M[1]));
+    let (column, row) = (floor_int(across), floor_int(along));
+    let piece = hash(column as u32, row as u32 ^ 0x5e77);
+    let [place_u, place_v, half_u, half_v] = [(1, 0.4, 0.3), (2, 0.4, 0.3), (3, 0.1, 0.2), (4, 0.1, 0.18)]
+        .map(|(k, from, span)| from + span * unit(hash(piece, k)) - if k < 3 { 0.05 } else { 0.0 });
+    let share = band(across - column as f32, place_u - half_u, place_u + half_u, size * (1.0 / PIECE_M[0]))
+        * band(along - row as f32, place_v - half_v, place_v + half_v, size * (1.0 / PIECE_M[1]));
+    1.0 + one_if(unit(piece) < MENDED) * share * MENDED_TONE * (unit(hash(piece, 5)) - 0.5)
 }
 
 #[cfg(test)]
@@ -293,6 +320,19 @@ mod tests {
             for (far, near) in [(far.x, near.x), (far.y, near.y), (far.z, near.z)] {
                 assert!((far / near - 1.0).abs() < 0.06, "{far} {near}");
             }
+        }
+        // Of no kind is every second stone darker.
+        for kind in &KINDS {
+            let stone = |k: u32| {
+                let [u, v] = [(k % 40) as f32 + 0.5, (k / 40) as f32 + 0.5];
+                let flat = Kind { bond: 0.0, rise_m: 0.0, bands_m: [FAR_M, FAR_M], ..*kind };
+                Laid::new(&flat).albedo([u * kind.stone_m[0], v * kind.stone_m[1]], [0.0, 0.0], 0.01).x
+            };
+            let mean = |odd: u32| {
+                let of = (0..1600u32).filter(|k| (k % 40 + k / 40) & 1 == odd).map(stone);
+                of.sum::<f32>() / 800.0
+            };
+            assert!((mean(0) / mean(1) - 1.0).abs() < 0.05, "{} {}", mean(0), mean(1));
         }
         assert!(near[2].x > 1.4 * near[2].z && near[1].x < 1.2 * near[1].z, "clinker is red, granite grey");
     }
