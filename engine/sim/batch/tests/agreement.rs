@@ -145,7 +145,9 @@ fn sloped_towns_are_as_in_large_pictures() {
 
 #[test]
 fn boxes_are_where_rays_in_full_precision_hit_them() {
-    let town = towns::shipped("downtown.xodr");
+    let mut town = towns::shipped("downtown.xodr");
+    // Of crowns, lobes within their boxes are drawn.
+    town.obstacles.retain(|one| one.kind != ObstacleKind::TreeCrown);
     let batch = BatchScene::new(&town, Seed([1; 32]));
     let tree = BoxBvh::build(town.obstacles.iter().map(|obstacle| obstacle.shape).collect());
     let (mut compared, mut wrong) = (0, 0);
