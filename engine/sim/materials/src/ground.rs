@@ -1,5 +1,6 @@
 //! Ground: asphalt, pavement slabs, road marks, grass, each from world coordinates.
 
+use super::grass::lawns;
 use super::grid::{GridFrame, GridTables};
 use super::lanes::{Block, Shared, WIDE, get, groups, set};
 use super::pattern::{
@@ -116,14 +117,7 @@ simd_kernel! {
                 }
             }
             _ => {
-                paint_patches!(shared, blocks, middle => {
-                    dryness([middle.world.x, middle.world.y], middle.footprint_m, noise)
-                }, point, dry, fine at BLADES_PER_M => grass([point.world.x, point.world.y], dry, lawn, fine, noise));
-                repaint_some!(shared, blocks, middle => frame.place(middle.world.x, middle.world.y).wall_m(tables)
-                    < 3.4 + 2.0 * middle.footprint_m, point, albedo => {
-                    let wall_m = frame.place(point.world.x, point.world.y).wall_m(tables);
-                    apron(&point, wall_m, albedo, noise)
-                });
+                lawns(shared, blocks, (tables, frame), lawn, noise);
             }
         }
     }
@@ -163,28 +157,10 @@ fn lid(point: &SurfacePoint, away_m: f32, asphalt: Vec3) -> Vec3 {
     asphalt.lerp(Vec3::splat(0.075) * (0.7 + 0.7 * ribs), inside).lerp(Vec3::splat(0.16), rim)
 }
 
-/// Texels of a lawn's blades per metre.
-const BLADES_PER_M: f32 = 16.0;
-
 /// Side of the squares of ground that have at most one manhole, metres.
 const MANHOLE_M: f32 = 13.0;
 /// Farther away than any manhole of a square, metres.
 const FAR_M: f32 = 99.0;
-
-/// Ground along a wall: slabs with an edging, then soil, then what `grass` is.
-#[inline(always)]
-fn apron(point: &SurfacePoint, wall_m: f32, grass: Vec3, noise: &NoiseTexture) -> Vec3 {
-    let (x, y, size) = (point.world.x, point.world.y, point.footprint_m);
-    let rough = noise.rough(x * 15.0 + 31.0, y * 15.0, size * 15.0);
-    let wild = noise.clumps(x * 6.0, y * 6.0, size * 6.0) - 0.5;
-    let soil = Vec3::new(0.095, 0.072, 0.048) * (0.45 + 1.1 * rough);
-    let plants = 1.0 - smoothstep(1.1, 2.3, wall_m + 1.6 * wild);
-    let slabs = 1.0 - band(wall_m, 0.85, 99.0, size);
-    let edging = band(wall_m, 0.77, 0.87, size);
-    let joint = most(stripes(x * 2.0, 0.0, 0.05, size * 2.0), stripes(y * 2.0, 0.0, 0.05, size * 2.0));
-    let stone = Vec3::new(0.30, 0.29, 0.27) * ((0.55 + 0.75 * rough) * (1.0 - 0.35 * joint));
-    grass.lerp(soil, 0.8 * plants).lerp(stone, slabs).lerp(Vec3::splat(0.36) * (0.7 + 0.5 * rough), edging)
-}
 
 #[inline(always)]
 fn wear(point: &SurfacePoint, noise: &NoiseTexture) -> f32 {
@@ -242,24 +218,6 @@ fn gravel(point: &SurfacePoint, stain: f32, fine: NoiseLevel, noise: &NoiseTextu
     let (x, y) = (point.world.x, point.world.y);
     let rough = noise.rough_at(x * 12.0, y * 12.0, fine);
     Vec3::new(0.25, 0.23, 0.20) * (0.45 + 0.7 * rough + 0.5 * (stain - 0.3))
-}
-
-/// Lawn of a season's two colours at a place of the world where pixels are `size` metres wide.
-#[inline(always)]
-pub fn lawn(place: [f32; 2], size: f32, colours: [Vec3; 2], noise: &NoiseTexture) -> Vec3 {
-    grass(place, dryness(place, size, noise), colours, NoiseLevel::of(size * BLADES_PER_M), noise)
-}
-
-/// Share of dry grass, in wide patches.
-#[inline(always)]
-fn dryness([x, y]: [f32; 2], size: f32, noise: &NoiseTexture) -> f32 {
-    smoothstep(0.42, 0.75, noise.clumps(x * 1.43, y * 1.43, size * 1.43))
-}
-
-#[inline(always)]
-fn grass([x, y]: [f32; 2], dry: f32, [fresh, straw]: [Vec3; 2], fine: NoiseLevel, noise: &NoiseTexture) -> Vec3 {
-    let blades = noise.rough_at(x * BLADES_PER_M, y * BLADES_PER_M, fine);
-    fresh.lerp(straw, 0.65 * dry) * lerp(0.45, 1.55, blades)
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ pub mod dry_days;
 pub mod facade;
 pub mod far_light;
 mod furniture;
+pub mod grass;
 pub mod grid;
 pub mod ground;
 pub mod ground_polygons;

@@ -5,8 +5,8 @@
 
 use super::geometry::fast_exp;
 use cosfly_domain::Season;
+use cosfly_materials::grass::lawn;
 use cosfly_materials::grid::LightGrid;
-use cosfly_materials::ground::lawn;
 use cosfly_materials::light::Light;
 use cosfly_materials::pattern::{
     NoiseTexture, Noises, floor_int, hash, least, lerp, most, one_if, share, smoothstep, stripes, unit,
