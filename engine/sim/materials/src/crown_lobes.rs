@@ -11,11 +11,11 @@ use cosfly_frames::{DVec2, DVec3, real};
 /// Crowns less wide than this on either side of the trunk stay as they are, metres.
 const LEAST_M: f64 = 0.45;
 /// Lobes of a crown as high as it is wide; how many more for each width that it is higher; at least and at most.
-const LOBES: f64 = 7.0;
+const LOBES: f64 = 6.0;
 const LOBES_PER_WIDTH: f64 = 2.0;
-const LOBES_WITHIN: [f64; 2] = [6.0, 9.0];
+const LOBES_WITHIN: [f64; 2] = [6.0, 8.0];
 /// Half width of a lobe as a share of the crown's, and its spread.
-const LOBE_SHARE: f64 = 0.44;
+const LOBE_SHARE: f64 = 0.47;
 const LOBE_SPREAD: f64 = 0.25;
 /// Height of a lobe as a share of its width.
 const FLAT: f64 = 0.75;
@@ -135,7 +135,7 @@ impl<'a> Nest<'a> {
             let reach_m = if is_top { 0.3 * reach_m } else { reach_m };
             let place = (self.axis() + reach_m * along).extend(middle_m);
             drawn.push(lobe(b, place, [wide_m, half_m], share, self.aside(place)));
-            if (number % 4 == 1 || reach_m > FAR_OUT * self.wide_m) && !is_top {
+            if (number == 1 || reach_m > FAR_OUT * self.wide_m) && !is_top {
                 drawn.extend(self.bough(place, ends[0]));
             }
         }
