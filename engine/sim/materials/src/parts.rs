@@ -40,6 +40,8 @@ pub struct SceneBox {
     pub lobe: Option<Lobe>,
     /// Form of the building that it belongs to.
     pub form: BuildingForm,
+    /// Sides, in the order of the faces, that stand at a pavement or paved ground: shops are there alone.
+    pub is_at_street: [bool; 4],
     /// Place in a pitched roof; none for most boxes.
     pub roof: Option<Box<RoofStep>>,
     /// Sides, in the order of the faces, on which the flat roof of a building goes on over another box, or ends at a wall.
@@ -171,6 +173,7 @@ fn scene_box(obstacle: &Obstacle, look_seed: u32) -> Option<SceneBox> {
         whole: [shape.center_in_world.as_vec3a(), half.as_vec3a()],
         lobe: None,
         form: BuildingForm::Block,
+        is_at_street: [false; 4],
         roof: None,
         roof_goes_on: [false; 4],
     })

@@ -27,6 +27,10 @@ pub const TILES_BRIGHTNESS: u32 = 23;
 pub const ROOF_WINDOWS: u32 = 24;
 pub const PANELS: u32 = 25;
 
+/// Draws of a wall: whether it has a door in any case, and in which bay.
+pub const HAS_DOOR: u32 = 26;
+pub const DOOR_BAY: u32 = 27;
+
 /// Draws of a window: its curtains and how far they hang, how its pane leans, whether it is lit at night, the warmth of its light.
 pub const CURTAINS: u32 = 3;
 pub const PANE: u32 = 4;

@@ -4,7 +4,7 @@ use super::box_face::Slant;
 use super::draws;
 use super::family::{MEAN_SIGN, SIGNS};
 use super::wall::Facade;
-use crate::pattern::{band, floor_int, hash, least, lerp, one_if, smoothstep, stripes, unit};
+use crate::pattern::{band, floor_int, hash, least, lerp, most, one_if, smoothstep, stripes, unit};
 use crate::surface::{Look, SurfacePoint};
 use crate::vector::Vec3;
 
@@ -68,8 +68,9 @@ impl Facade {
         let bay = along_m * self.bays_per_m;
         let (du, dv) = (point.footprints_m[0] * self.bays_per_m, point.footprints_m[1]);
         let number = floor_int(bay) as u32;
+        let is_sure = one_if(number as i32 == self.door_bay as i32);
         let [doors, half_m, high_m] = self.doors;
-        let here = one_if(unit(hash(number, self.seed ^ 0xd005)) < doors);
+        let here = most(one_if(unit(hash(number, self.seed ^ 0xd005)) < doors), is_sure);
         let (wide, high) = (half_m * self.bays_per_m, least(high_m, self.floor_m - 0.4));
         let door = here * stripes(bay, 0.5 - wide, 0.5 + wide, du) * band(up_m, 0.08, high, dv);
         let framed = here * stripes(bay, 0.5 - 1.3 * wide, 0.5 + 1.3 * wide, du) * band(up_m, 0.0, high + 0.18, dv);

@@ -5,6 +5,7 @@ use super::family::{Family, SIGNS, between, chance};
 use crate::building_form::BuildingForm;
 use crate::parts::SceneBox;
 use crate::pattern::{NoiseLevel, NoiseTexture, Noises, band, draw, hash, one_if, smoothstep, stripes};
+use crate::street_walls::IN_STREET_M;
 use crate::surface::{Look, SurfacePoint};
 use crate::vector::Vec3;
 
@@ -14,10 +15,11 @@ pub(super) const GRAIN_PER_M: f32 = 14.0;
 const FOOT_M: f32 = 2.2;
 const CORNICE_M: f32 = 0.45;
 
+/// Share of the walls of houses with a door in any case.
+const DOORED_WALLS: f32 = 0.6;
+
 /// Half the width and height of a wall below which no window is in it, metres.
 const SMALLEST_HALF_M: f32 = 0.8;
-/// A part of a building whose foot is higher than this above the foot of the whole does not stand in the street, metres.
-const IN_STREET_M: f32 = 2.0;
 
 /// Properties of a whole facade.
 #[derive(Clone, Copy, Debug)]
@@ -59,6 +61,8 @@ pub struct Facade {
     pub(super) has_doors: bool,
     /// Share of the bays with a door, half its width and its height, metres.
     pub(super) doors: [f32; 3],
+    /// A bay that has a door in any case; -1 for none.
+    pub(super) door_bay: f32,
     pub(super) height_m: f32,
     pub(super) shift: f32,
 }
@@ -104,6 +108,7 @@ impl Facade {
             shops: family.has_shops(seed, house.0) && height_m > 5.0,
             has_doors: family.door[0] > 0.0,
             doors: family.door,
+            door_bay: door_bay(hash(seed, face), house.0, (width_m / bay_m).round()),
             height_m,
             shift: 200.0 * draw(seed, draws::SHIFT),
         }
@@ -115,10 +120,10 @@ impl Facade {
         let look = Self::new(b.seed, b.town, face as u32, [2.0 * half_width_m, 2.0 * half_m], house_of(b));
         if half_width_m.min(half_m) < SMALLEST_HALF_M {
             look.bare()
-        } else if b.center_in_world.z as f32 - half_m > middle.z - half_whole.z + IN_STREET_M {
+        } else if b.center_in_world.z as f32 - half_m > middle.z - half_whole.z + IN_STREET_M as f32 {
             look.above_street()
         } else {
-            look
+            Self { shops: look.shops && b.is_at_street.get(face).is_some_and(|is_at| *is_at), ..look }
         }
     }
 
@@ -201,6 +206,13 @@ impl Facade {
     }
 }
 
+/// The bay of the door that most walls of houses have; -1 for none.
+fn door_bay(seed: u32, form: BuildingForm, bays: f32) -> f32 {
+    let is_house = matches!(form, BuildingForm::Home | BuildingForm::Roofed);
+    let has_door = is_house && bays > 1.5 && draw(seed, draws::HAS_DOOR) < DOORED_WALLS;
+    if has_door { (draw(seed, draws::DOOR_BAY) * bays).floor() } else { -1.0 }
+}
+
 /// Form and height of the building of a box.
 fn house_of(b: &SceneBox) -> (BuildingForm, f32) {
     (b.form, 2.0 * b.whole[1].z)
@@ -239,5 +251,24 @@ mod tests {
             assert_eq!(lower.wall_colour(), upper.wall_colour());
             assert!(lower.has_doors && !upper.has_doors && !upper.shops);
         }
+    }
+
+    #[test]
+    fn houses_have_shops_at_the_street_alone_and_most_walls_a_door() {
+        let (mut shops, mut doors) = (0, 0);
+        for object_id in 0..200 {
+            let shape = OrientedBox::from_corners(DVec3::ZERO, DVec3::new(20.0, 10.0, 12.0));
+            let one = Obstacle { shape, kind: ObstacleKind::Building, object_id, synthetic: false };
+            let mut boxes = boxes_of(&Town { obstacles: vec![one], ..Town::default() }, 7);
+            join_wholes(&mut boxes);
+            boxes[0].form = BuildingForm::Roofed;
+            assert!((0..4).all(|face| !Facade::of_box(&boxes[0], face, 10.0).shops));
+            boxes[0].is_at_street[2] = true;
+            let looks = [0, 1, 2, 3].map(|face| Facade::of_box(&boxes[0], face, 10.0));
+            assert!([0, 1, 3].iter().all(|face| !looks[*face].shops));
+            shops += usize::from(looks[2].shops);
+            doors += looks.iter().filter(|look| (0.0..20.0 * look.bays_per_m).contains(&look.door_bay)).count();
+        }
+        assert!((80..180).contains(&shops) && (420..540).contains(&doors), "{shops} {doors}");
     }
 }
