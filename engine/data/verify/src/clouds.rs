@@ -36,11 +36,14 @@ const ROW: f64 = 3.0;
 
 /// Boxes of a town that rays meet as boxes: cars are drawn as vehicles.
 struct Boxes {
-    /// What no ray passes: buildings without the highest step of a roof, the middles of crowns; benches and stalls are open.
+    /// What no ray passes: buildings without the highest step of a roof, the middles of crowns; benches, stalls and static things are open.
     solid: BoxBvh,
     /// All boxes by their instance id.
     things: BTreeMap<u32, Vec<OrientedBox>>,
 }
+
+/// Kinds whose things may be drawn of parts that rays pass between: boats and things to play on are of kind `static`.
+const OPEN_KINDS: [ObstacleKind; 3] = [ObstacleKind::Bench, ObstacleKind::Stall, ObstacleKind::Static];
 
 /// How much of a box is drawn.
 #[derive(Clone, Copy)]
@@ -56,7 +59,7 @@ enum Filled {
 impl Filled {
     fn of(label: SemanticLabel, kind: &str) -> Self {
         match label {
-            _ if [ObstacleKind::Bench, ObstacleKind::Stall].map(kind_name).contains(&kind) => Self::Parts,
+            _ if OPEN_KINDS.map(kind_name).contains(&kind) => Self::Parts,
             SemanticLabel::Building => Self::BelowRoof,
             SemanticLabel::Vegetation => Self::Crown,
             _ => Self::All,
@@ -411,7 +414,7 @@ mod tests {
         assert!(!is_right(SemanticLabel::Wall, 5.5, 24.0));
         // Rays pass between the posts of a stall.
         let is_open = |kind| ray(Filled::of(SemanticLabel::Static, kind), 3.0, 24.0);
-        assert!(is_open("stall") && is_open("bench") && !is_open("static"));
+        assert!(is_open("stall") && is_open("bench") && is_open("static") && !is_open("wall"));
         // Crowns are round within their boxes.
         assert!(is_right(SemanticLabel::Vegetation, 5.5, 23.5) && !is_right(SemanticLabel::Vegetation, 5.5, 24.5));
     }

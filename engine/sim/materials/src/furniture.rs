@@ -1,8 +1,14 @@
-//! Benches, market stalls and hedges, drawn of parts that lie within their boxes.
+//! Benches, market stalls, hedges and things that their measures tell, drawn of parts that lie within their boxes.
 
-use crate::parts::{BOX_FACES, SceneBox};
+use crate::boats::boat;
+use crate::containers::stack;
+use crate::ground_kinds::GroundKinds;
+use crate::parts::SceneBox;
+use crate::plan::Plan;
+use crate::street_things::street_thing;
+use crate::thing_form::ThingForm;
 use cosfly_domain::ObstacleKind;
-use cosfly_frames::DVec3;
+use cosfly_frames::{DVec2, DVec3};
 
 /// Least and greatest length, depth and height of a box that is drawn as a bench, and as a stall, metres.
 const BENCH_M: [[f64; 3]; 2] = [[0.9, 0.25, 0.35], [4.0, 1.0, 1.4]];
@@ -24,9 +30,12 @@ const SHRUB: f64 = 1.2;
 /// Most shrubs of a hedge.
 const MOST_SHRUBS: f64 = 60.0;
 
-/// Draws all boxes of benches, stalls and hedges as such; those of other sizes stay boxes.
-pub fn furnish(boxes: &mut Vec<SceneBox>) {
-    if !boxes.iter().any(|b| matches!(b.kind, ObstacleKind::Bench | ObstacleKind::Stall | ObstacleKind::Bush)) {
+/// Draws all boxes of benches, stalls, hedges and known measures as such; those of other sizes stay boxes.
+pub fn furnish(boxes: &mut Vec<SceneBox>, ground: &GroundKinds) {
+    let is_one = |b: &SceneBox| {
+        matches!(b.kind, ObstacleKind::Bench | ObstacleKind::Stall | ObstacleKind::Bush | ObstacleKind::Static)
+    };
+    if !boxes.iter().any(is_one) {
         return;
     }
     let parts = |b: SceneBox| {
@@ -35,35 +44,18 @@ pub fn furnish(boxes: &mut Vec<SceneBox>) {
             ObstacleKind::Bench if plan.is_within(BENCH_M) => plan.bench(),
             ObstacleKind::Stall if plan.is_within(STALL_M) => plan.stall(),
             ObstacleKind::Bush if plan.size_m.x >= HEDGE * plan.size_m.y => plan.hedge(),
+            ObstacleKind::Static => {
+                let is_afloat = || ground.is_water(b.center_in_world.truncate());
+                let parts = stack(&plan, b.seed).or_else(|| boat(&b, &is_afloat)).or_else(|| street_thing(&b, ground));
+                parts.unwrap_or_else(|| vec![b])
+            }
             _ => vec![b],
         }
     };
     *boxes = std::mem::take(boxes).into_iter().flat_map(parts).collect();
 }
 
-fn swapped(at: DVec3) -> DVec3 {
-    DVec3::new(at.y, at.x, at.z)
-}
-
-/// A box with its longer side first.
-struct Plan<'a> {
-    of: &'a SceneBox,
-    /// Length, depth and height, metres.
-    size_m: DVec3,
-    is_across: bool,
-}
-
-impl<'a> Plan<'a> {
-    fn of(of: &'a SceneBox) -> Self {
-        let size_m = 2.0 * of.half_extents_m.as_dvec3();
-        let is_across = size_m.y > size_m.x;
-        Self { of, size_m: if is_across { swapped(size_m) } else { size_m }, is_across }
-    }
-
-    fn is_within(&self, [least, most]: [[f64; 3]; 2]) -> bool {
-        self.size_m.cmpge(least.into()).all() && self.size_m.cmple(most.into()).all()
-    }
-
+impl Plan<'_> {
     /// A seat and a back of boards on two legs.
     fn bench(&self) -> Vec<SceneBox> {
         let DVec3 { x: length, y: depth, z: height } = self.size_m;
@@ -114,77 +106,69 @@ impl<'a> Plan<'a> {
             parts.push(self.part(ObstacleKind::Stall, [low[0], low[1], TABLE_M], high));
         }
         parts.push(self.part(ObstacleKind::Stall, [0.0, 0.0, cloth], [length, depth, ridge]));
-        let mut awning = self.part(ObstacleKind::Stall, [0.0, 0.0, ridge], [length, depth, height]);
-        self.draw_in(&mut awning);
-        parts.push(awning);
+        // The upper face of the awning is drawn in to a ridge along the length.
+        let near = 0.5 * (depth - BOARD_M);
+        let across = |low: f64, high: f64| [[0.0, low], [length, low], [0.0, high], [length, high]].map(DVec2::from);
+        let awning = self.prism(ThingForm::Plain, [across(0.0, depth), across(near, depth - near)], [ridge, height]);
+        parts.push(SceneBox { kind: ObstacleKind::Stall, ..awning });
         parts
-    }
-
-    /// A part between two corners, metres from the lowest corner of the box along its length, depth and height.
-    fn part(&self, kind: ObstacleKind, low: [f64; 3], high: [f64; 3]) -> SceneBox {
-        let (low, high) = (DVec3::from(low), DVec3::from(high));
-        let turned = |at: DVec3| if self.is_across { swapped(at) } else { at };
-        let (middle, half) = (turned(0.5 * (low + high) - 0.5 * self.size_m), turned(0.5 * (high - low)));
-        let [x, y] = self.of.axes_in_world;
-        let in_world = |at: DVec3| self.of.center_in_world + at.x * x + at.y * y + at.z * DVec3::Z;
-        let mut part = self.of.clone();
-        for (number, corner) in part.corners_in_world.iter_mut().enumerate() {
-            let side = |bit: usize| if number >> bit & 1 == 0 { -1.0 } else { 1.0 };
-            *corner = in_world(middle + half * DVec3::new(side(0), side(1), side(2)));
-        }
-        part.center_in_world = in_world(middle);
-        part.half_extents_m = half.as_vec3a();
-        let bounds = |corner: &DVec3| (*corner - part.center_in_world).abs();
-        part.half_bounds_m = part.corners_in_world.iter().map(bounds).fold(DVec3::ZERO, DVec3::max);
-        part.kind = kind;
-        part.whole = [part.center_in_world.as_vec3a(), part.half_extents_m];
-        part
-    }
-
-    /// Draws the upper face of an awning in to a ridge along the length.
-    fn draw_in(&self, awning: &mut SceneBox) {
-        let across = usize::from(!self.is_across);
-        let axis = awning.axes_in_world[across];
-        let half_m = 0.5 * self.size_m.y;
-        let in_m = half_m - 0.5 * BOARD_M;
-        for number in 4..8 {
-            let side = if number >> across & 1 == 0 { 1.0 } else { -1.0 };
-            awning.corners_in_world[number] += side * in_m * axis;
-        }
-        let rise_m = 2.0 * awning.half_bounds_m.z;
-        for (side, (_, sign, _)) in awning.sides_in_world.iter_mut().zip(BOX_FACES).skip(2 * across).take(2) {
-            *side = (rise_m * sign * axis + in_m * DVec3::Z).normalize_or(DVec3::Z);
-        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parts::boxes_of;
-    use cosfly_domain::{Obstacle, OrientedBox, Town};
+    use crate::parts::{BOX_FACES, boxes_of};
+    use cosfly_domain::{Obstacle, OrientedBox, SemanticLabel, SurfaceMesh, Town};
 
-    fn drawn(kind: ObstacleKind, size_m: [f64; 3]) -> (SceneBox, Vec<SceneBox>) {
+    /// A thing on the ground, or on water that lies around it.
+    fn drawn(kind: ObstacleKind, size_m: [f64; 3], is_afloat: bool) -> (SceneBox, Vec<SceneBox>) {
         let half_extents_m = 0.5 * DVec3::from(size_m);
         let shape = OrientedBox { center_in_world: DVec3::new(3.0, -4.0, 1.0), half_extents_m, yaw_rad: 0.6 };
         let obstacles = vec![Obstacle { shape, kind, object_id: 7, synthetic: false }];
-        let mut boxes = boxes_of(&Town { obstacles, ..Town::default() }, 1);
+        let water = SurfaceMesh {
+            label: SemanticLabel::Water,
+            vertices_in_world: [[-9.0, -9.0], [9.0, -9.0], [0.0, 9.0]].map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec(),
+            along_across_m: vec![DVec2::ZERO; 3],
+            triangles: vec![[0, 1, 2]],
+            synthetic: false,
+        };
+        let surfaces = if is_afloat { vec![water] } else { vec![] };
+        let town = Town { obstacles, surfaces, ..Town::default() };
+        let mut boxes = boxes_of(&town, 1);
         let whole = boxes[0].clone();
-        furnish(&mut boxes);
+        furnish(&mut boxes, &GroundKinds::of(&town));
         (whole, boxes)
     }
 
     #[test]
     fn parts_lie_within_the_box_reach_its_ends_and_keep_its_name() {
-        for (kind, size_m) in [
-            (ObstacleKind::Bench, [1.8, 0.6, 0.85]),
-            (ObstacleKind::Bench, [0.5, 1.8, 0.8]),
-            (ObstacleKind::Stall, [3.2, 2.0, 2.4]),
-            (ObstacleKind::Stall, [2.2, 3.2, 2.5]),
-            (ObstacleKind::Bush, [12.0, 0.8, 1.5]),
+        for (kind, size_m, is_afloat) in [
+            (ObstacleKind::Bench, [1.8, 0.6, 0.85], false),
+            (ObstacleKind::Bench, [0.5, 1.8, 0.8], false),
+            (ObstacleKind::Stall, [3.2, 2.0, 2.4], false),
+            (ObstacleKind::Stall, [2.2, 3.2, 2.5], false),
+            (ObstacleKind::Bush, [12.0, 0.8, 1.5], false),
+            (ObstacleKind::Static, [12.2, 2.44, 2.6], false),
+            (ObstacleKind::Static, [2.44, 12.2, 7.8], false),
+            (ObstacleKind::Static, [6.06, 2.44, 5.2], false),
+            (ObstacleKind::Static, [9.1, 2.3, 1.7], true),
+            (ObstacleKind::Static, [2.9, 8.2, 2.4], true),
+            (ObstacleKind::Static, [6.0, 3.2, 1.2], true),
+            (ObstacleKind::Static, [74.0, 13.0, 8.0], true),
+            (ObstacleKind::Static, [13.0, 61.0, 8.0], true),
+            (ObstacleKind::Static, [4.0, 1.4, 2.62], false),
+            (ObstacleKind::Static, [2.0, 5.2, 2.4], false),
+            (ObstacleKind::Static, [3.6, 0.5, 2.3], false),
+            (ObstacleKind::Static, [2.4, 2.4, 2.6], false),
+            (ObstacleKind::Static, [0.8, 3.0, 1.6], false),
+            (ObstacleKind::Static, [2.8, 2.8, 2.6], false),
+            (ObstacleKind::Static, [3.2, 3.2, 1.1], false),
+            (ObstacleKind::Static, [1.0, 5.3, 2.0], false),
         ] {
-            let (whole, parts) = drawn(kind, size_m);
-            assert!(parts.len() > 4, "{kind:?}");
+            let (whole, parts) = drawn(kind, size_m, is_afloat);
+            let is_stack = kind == ObstacleKind::Static && size_m[0].min(size_m[1]) == 2.44;
+            assert!(parts.len() > 4 || is_stack, "{kind:?} {size_m:?}");
             let own = |at: DVec3| {
                 let away = at - whole.center_in_world;
                 let [x, y] = whole.axes_in_world.map(|axis| away.dot(axis));
@@ -195,15 +179,33 @@ mod tests {
             assert!(corners().all(|at| at.abs().cmple(half + 1e-6).all()), "{kind:?} {size_m:?}");
             let (low, high) =
                 corners().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
-            assert!((high - half).abs().max_element() < 1e-6 && (low + half).abs().max_element() < 1e-6, "{kind:?}");
+            // Containers stand back, and sides of hulls and slides lie within.
+            let back_m = if kind == ObstacleKind::Static { 0.021 * half.max_element().max(5.0) } else { 1e-6 };
+            assert!(
+                (high - half).abs().max_element() < back_m && (low + half).abs().max_element() < back_m,
+                "{size_m:?}"
+            );
             assert!(parts.iter().all(|part| (part.instance, part.label) == (whole.instance, whole.label)));
             for part in &parts {
+                assert!(part.half_extents_m.min_element() > 0.0, "{kind:?} {size_m:?}");
                 for (face, (_, _, around)) in BOX_FACES.iter().enumerate() {
                     let [from, normal] = [part.corners_in_world[around[0]], part.normal_in_world(face)];
+                    assert!((normal.length() - 1.0).abs() < 1e-9 && normal.dot(from - part.center_in_world) > 0.0);
                     let off = around.map(|corner| (part.corners_in_world[corner] - from).dot(normal).abs());
-                    assert!(off.into_iter().all(|off_m| off_m < 1e-5), "{kind:?} {face}: {off:?}");
+                    assert!(off.into_iter().all(|off_m| off_m < 1e-5), "{kind:?} {size_m:?} {face}: {off:?}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn containers_of_a_stack_are_boxes_of_their_own_that_differ() {
+        for size_m in [[12.2, 2.44, 7.8], [6.06, 2.44, 7.8]] {
+            let (_, parts) = drawn(ObstacleKind::Static, size_m, false);
+            assert!((3..=6).contains(&parts.len()), "{}", parts.len());
+            assert!(parts.iter().all(|part| part.thing == ThingForm::Container));
+            let seeds: std::collections::BTreeSet<u32> = parts.iter().map(|part| part.seed).collect();
+            assert_eq!(seeds.len(), parts.len());
         }
     }
 
@@ -214,8 +216,13 @@ mod tests {
             (ObstacleKind::Stall, [3.0, 2.0, 1.0]),
             (ObstacleKind::Static, [1.8, 0.6, 0.8]),
             (ObstacleKind::Bush, [2.0, 0.8, 1.5]),
+            // No boat lies on land, and no container is as wide as that.
+            (ObstacleKind::Static, [9.1, 2.3, 1.7]),
+            (ObstacleKind::Static, [74.0, 13.0, 8.0]),
+            (ObstacleKind::Static, [12.2, 3.1, 2.6]),
+            (ObstacleKind::Static, [12.2, 2.44, 3.9]),
         ] {
-            assert_eq!(drawn(kind, size_m).1.len(), 1, "{kind:?}");
+            assert_eq!(drawn(kind, size_m, false).1.len(), 1, "{kind:?}");
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::parts::{Cluster, SceneBox};
 use crate::pattern::{blend, fixed_size, floor_int, four_bytes, least, lerp, most, nearest_index, share};
-use crate::things::bulb;
+use crate::thing_tints::bulb;
 use cosfly_domain::ObstacleKind;
 use cosfly_frames::DVec3;
 

@@ -7,8 +7,10 @@
 //! [`paving`], [`kerbs`], [`lane_marks`], [`lane_wear`], [`leaves`] and [`things`] are the materials: they read points from [`lanes`] and write looks ([`surface`]). [`light`] is the sun, sky and lamps of a [`weather`]; [`grid`] how much of the sky and of
 //! the lamps each place of a town sees; [`scan_light`] the light of scans. [`season`] turns leaves and lawns.
 
+mod boats;
 pub mod building_form;
 pub mod building_forms;
+mod containers;
 mod crown_lobes;
 pub mod drawn_shapes;
 pub mod dry_days;
@@ -30,6 +32,7 @@ pub mod light;
 pub mod parts;
 pub mod pattern;
 pub mod paving;
+mod plan;
 pub mod presets;
 pub mod roof_edges;
 pub mod roof_slopes;
@@ -39,8 +42,13 @@ pub mod round_crowns;
 pub mod scan_light;
 pub mod season;
 pub mod square;
+mod street_things;
 pub mod street_walls;
 pub mod surface;
+pub mod thing_form;
+mod thing_looks;
+pub mod thing_paint;
+mod thing_tints;
 pub mod things;
 pub mod tone;
 pub mod vector;

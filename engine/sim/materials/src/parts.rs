@@ -4,6 +4,7 @@ use crate::building_form::BuildingForm;
 use crate::kerbs::KerbLine;
 use crate::pattern::hash;
 use crate::roof_step::RoofStep;
+use crate::thing_form::ThingForm;
 use cosfly_domain::{Obstacle, ObstacleKind, SemanticLabel, Town};
 use cosfly_frames::{DVec3, real};
 use glam::Vec3A as Vec3;
@@ -40,6 +41,8 @@ pub struct SceneBox {
     pub lobe: Option<Lobe>,
     /// Form of the building that it belongs to.
     pub form: BuildingForm,
+    /// What the part of a thing is.
+    pub thing: ThingForm,
     /// Sides, in the order of the faces, that stand at a pavement or paved ground: shops are there alone.
     pub is_at_street: [bool; 4],
     /// Place in a pitched roof; none for most boxes.
@@ -173,6 +176,7 @@ fn scene_box(obstacle: &Obstacle, look_seed: u32) -> Option<SceneBox> {
         whole: [shape.center_in_world.as_vec3a(), half.as_vec3a()],
         lobe: None,
         form: BuildingForm::Block,
+        thing: ThingForm::Plain,
         is_at_street: [false; 4],
         roof: None,
         roof_goes_on: [false; 4],

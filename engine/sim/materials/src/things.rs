@@ -1,55 +1,23 @@
 //! Trunks, cars, lamps and everything else that stands in a street.
 
-use super::lanes::{Block, Shared, WIDE, groups};
-use super::pattern::{NoiseTexture, Noises, band, draw, hash, least, most, smoothstep, stripes, unit};
+use super::parts::SceneBox;
+use super::pattern::{NoiseTexture, Noises, band, hash, least, most, smoothstep, stripes, unit};
 use super::surface::{Look, SurfacePoint};
+use super::thing_form::ThingForm;
+use super::thing_tints::{FRUIT, tint_of};
 use super::vector::Vec3;
 use cosfly_domain::ObstacleKind;
-use cosfly_frames::simd_kernel;
 
-/// Car paints, linear RGB.
-const PAINTS: [Vec3; 8] = [
-    Vec3::new(0.55, 0.55, 0.57),
-    Vec3::new(0.03, 0.03, 0.035),
-    Vec3::new(0.68, 0.68, 0.66),
-    Vec3::new(0.40, 0.03, 0.03),
-    Vec3::new(0.03, 0.08, 0.28),
-    Vec3::new(0.18, 0.19, 0.20),
-    Vec3::new(0.05, 0.14, 0.10),
-    Vec3::new(0.45, 0.38, 0.28),
-];
-
-/// Stripes of awnings, linear RGB.
-const CLOTHS: [Vec3; 4] = [
-    Vec3::new(0.42, 0.05, 0.04),
-    Vec3::new(0.04, 0.20, 0.09),
-    Vec3::new(0.05, 0.11, 0.33),
-    Vec3::new(0.50, 0.30, 0.05),
-];
-/// What lies in crates, linear RGB.
-const FRUIT: [Vec3; 5] = [
-    Vec3::new(0.50, 0.09, 0.03),
-    Vec3::new(0.52, 0.25, 0.03),
-    Vec3::new(0.16, 0.30, 0.06),
-    Vec3::new(0.32, 0.22, 0.10),
-    Vec3::new(0.46, 0.40, 0.30),
-];
 /// Half the longer side of the widest crate; awnings are longer, metres.
 const WIDEST_CRATE_M: f32 = 0.78;
-
-/// Light of bulbs, linear RGB: warm, sodium, cold; the first are the most frequent.
-const BULBS: [[f32; 3]; 3] = [[1.0, 0.78, 0.45], [1.0, 0.58, 0.20], [0.86, 0.92, 1.0]];
-
-/// Strength of a street lamp's bulb by the lamp's seed: bulbs age, and one in thirty is out.
-pub fn bulb(seed: u32) -> f32 {
-    if draw(seed, 9) < 1.0 / 30.0 { 0.0 } else { 0.72 + 0.56 * draw(seed, 10) }
-}
 
 /// The box a thing is made of, and one of its faces.
 #[derive(Clone, Copy, Debug)]
 pub struct BoxThing {
     /// Kind.
     pub kind: ObstacleKind,
+    /// What the part is, where its kind does not say.
+    pub form: ThingForm,
     /// The box's middle, metres.
     pub center: Vec3,
     /// Horizontal axes.
@@ -63,81 +31,33 @@ pub struct BoxThing {
     /// 0 by day, 1 at night.
     pub night: f32,
     /// Colour, drawn from the seed.
-    tint: Vec3,
+    pub(crate) tint: Vec3,
     /// Which of several looks it has, drawn from the seed.
-    choice: usize,
+    pub(crate) choice: usize,
 }
 
 /// A point in the box's own axes from its middle, and on the face: horizontal and vertical (x and y on top), metres.
 #[derive(Clone, Copy)]
-struct Place {
-    local: Vec3,
-    u: f32,
-    v: f32,
-}
-
-/// Asks the look of every pixel. Not a function: closures are not always inlined, and only what is inlined becomes
-/// vector code.
-macro_rules! paint_all {
-    ($put:ident, $self:ident, $shared:ident, $blocks:ident, $point:ident, $at:ident => $look:expr) => {
-        for (shared, four) in groups($shared, $blocks) {
-            for block in four {
-                for k in 0..WIDE {
-                    let $point = block.point(shared, k);
-                    let $at = $self.place::<AXIS>(&$point);
-                    let look = $look;
-                    block.$put(k, &look);
-                }
-            }
-        }
-    };
+pub(crate) struct Place {
+    pub local: Vec3,
+    pub u: f32,
+    pub v: f32,
 }
 
 impl BoxThing {
-    /// A face of a box; see the fields.
-    pub fn new(
-        kind: ObstacleKind,
-        center: Vec3,
-        axes: [Vec3; 2],
-        half: Vec3,
-        seed: u32,
-        axis: usize,
-        night: f32,
-    ) -> Self {
-        let pick = |index: u32, count: usize| (draw(seed, index) * count as f32) as usize % count;
-        let (mut tint, mut choice) = (Vec3::splat(0.2), 0);
-        match kind {
-            ObstacleKind::Lamp => {
-                let [r, g, b] = BULBS[usize::from(draw(seed, 11) > 0.6) + usize::from(draw(seed, 11) > 0.85)];
-                tint = Vec3::new(r, g, b) * bulb(seed);
-            }
-            ObstacleKind::Car => tint = PAINTS[pick(2, PAINTS.len())],
-            ObstacleKind::TrafficLight => {
-                choice = pick(3, 3);
-                tint = [Vec3::new(0.9, 0.05, 0.03), Vec3::new(0.9, 0.5, 0.03), Vec3::new(0.03, 0.8, 0.25)][choice];
-            }
-            ObstacleKind::TrafficSign => {
-                tint =
-                    [Vec3::new(0.02, 0.12, 0.45), Vec3::new(0.55, 0.03, 0.03), Vec3::new(0.65, 0.45, 0.02)][pick(4, 3)];
-            }
-            ObstacleKind::Wall | ObstacleKind::Bridge | ObstacleKind::Building => {
-                tint = Vec3::new(0.36, 0.33, 0.29) * (0.8 + 0.4 * draw(seed, 5));
-            }
-            ObstacleKind::Stall => {
-                tint = CLOTHS[pick(4, CLOTHS.len())];
-                choice = hash(seed, center.x.to_bits() ^ center.y.to_bits()) as usize % FRUIT.len();
-            }
-            ObstacleKind::Static | ObstacleKind::Bench => {
-                tint = [Vec3::new(0.16, 0.115, 0.075), Vec3::new(0.065, 0.095, 0.07), Vec3::splat(0.20)][pick(6, 3)];
-            }
-            _ => {}
-        }
-        Self { kind, center, axes, half, seed, axis, night, tint, choice }
+    /// A face of a box.
+    pub fn of(b: &SceneBox, axis: usize, night: f32) -> Self {
+        let center: Vec3 = b.center_in_world.into();
+        let half = Vec3::new(b.half_extents_m.x, b.half_extents_m.y, b.half_extents_m.z);
+        let (tint, choice) = tint_of((b.kind, b.thing), b.seed, center);
+        let axes = b.axes_in_world.map(Vec3::from);
+        Self { kind: b.kind, form: b.thing, center, axes, half, seed: b.seed, axis, night, tint, choice }
     }
 
     /// Colour without patterns.
     pub fn colour(&self) -> Vec3 {
         match self.kind {
+            _ if self.form != ThingForm::Plain => self.tint,
             ObstacleKind::TreeTrunk => Vec3::new(0.115, 0.082, 0.055),
             ObstacleKind::Lamp => Vec3::splat(0.2),
             _ => self.tint,
@@ -146,7 +66,7 @@ impl BoxThing {
 
     /// The face's place under a point.
     #[inline(always)]
-    fn place<const AXIS: usize>(&self, point: &SurfacePoint) -> Place {
+    pub(crate) fn place<const AXIS: usize>(&self, point: &SurfacePoint) -> Place {
         let away = point.world - self.center;
         let local = Vec3::new(away.dot(self.axes[0]), away.dot(self.axes[1]), away.z);
         let (u, v) = match AXIS {
@@ -158,44 +78,14 @@ impl BoxThing {
     }
 
     #[inline(always)]
-    fn all<const AXIS: usize>(&self, shared: &[Shared], blocks: &mut [Block], noise: &NoiseTexture) {
-        match self.kind {
-            // Shaded together, see `leaves`.
-            ObstacleKind::TreeCrown | ObstacleKind::Bush => {}
-            ObstacleKind::TreeTrunk => {
-                paint_all!(put, self, shared, blocks, point, at => self.bark(&point, &at, noise))
-            }
-            ObstacleKind::Car => paint_all!(put, self, shared, blocks, point, at => self.car::<AXIS>(&point, &at)),
-            ObstacleKind::Lamp => paint_all!(put, self, shared, blocks, point, at => self.lamp(&point, &at)),
-            ObstacleKind::TrafficLight => {
-                paint_all!(put, self, shared, blocks, point, at => self.traffic_light::<AXIS>(&point, &at));
-            }
-            ObstacleKind::TrafficSign => {
-                paint_all!(put, self, shared, blocks, point, at => self.sign::<AXIS>(&point, &at))
-            }
-            ObstacleKind::Fence | ObstacleKind::GuardRail => {
-                paint_all!(put, self, shared, blocks, point, at => self.fence(&point, &at));
-            }
-            ObstacleKind::Wall | ObstacleKind::Bridge | ObstacleKind::Building => {
-                paint_all!(put, self, shared, blocks, point, at => self.stone(&point, &at, noise));
-            }
-            ObstacleKind::Pole => paint_all!(put, self, shared, blocks, point, _at => metal(&point, Vec3::splat(0.22))),
-            ObstacleKind::Stall => paint_all!(put, self, shared, blocks, point, at => self.stall(&point, &at, noise)),
-            ObstacleKind::Static | ObstacleKind::Bench => {
-                paint_all!(put, self, shared, blocks, point, at => self.furniture(&point, &at, noise))
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn bark(&self, point: &SurfacePoint, at: &Place, noise: &NoiseTexture) -> Look {
+    pub(crate) fn bark(&self, point: &SurfacePoint, at: &Place, noise: &NoiseTexture) -> Look {
         let (u, v) = (at.u, at.v);
         let furrow = noise.clumps(u * 60.0 + 9.0 * unit(self.seed), v * 9.0, point.footprint_m * 30.0);
         Look::matt(Vec3::new(0.115, 0.082, 0.055) * (0.45 + 1.0 * furrow), point.normal)
     }
 
     #[inline(always)]
-    fn car<const AXIS: usize>(&self, point: &SurfacePoint, at: &Place) -> Look {
+    pub(crate) fn car<const AXIS: usize>(&self, point: &SurfacePoint, at: &Place) -> Look {
         let long = if self.half.x >= self.half.y { 0 } else { 1 };
         let (along, half_length) = if long == 0 { (at.local.x, self.half.x) } else { (at.local.y, self.half.y) };
         let t = along / half_length.max(0.1);
@@ -238,7 +128,7 @@ impl BoxThing {
     }
 
     #[inline(always)]
-    fn lamp(&self, point: &SurfacePoint, at: &Place) -> Look {
+    pub(crate) fn lamp(&self, point: &SurfacePoint, at: &Place) -> Look {
         let mut look = metal(point, Vec3::new(0.09, 0.10, 0.10));
         // The head: a flat box, or the top end of a mast drawn as one box.
         let flat = self.half.z < 0.6 * self.half.x.max(self.half.y);
@@ -249,7 +139,7 @@ impl BoxThing {
     }
 
     #[inline(always)]
-    fn traffic_light<const AXIS: usize>(&self, point: &SurfacePoint, at: &Place) -> Look {
+    pub(crate) fn traffic_light<const AXIS: usize>(&self, point: &SurfacePoint, at: &Place) -> Look {
         let mut look = metal(point, Vec3::new(0.06, 0.065, 0.06));
         let up = at.local.z / self.half.z.max(0.05);
         if self.half.z < 1.0 && AXIS != 2 {
@@ -260,7 +150,7 @@ impl BoxThing {
     }
 
     #[inline(always)]
-    fn sign<const AXIS: usize>(&self, point: &SurfacePoint, at: &Place) -> Look {
+    pub(crate) fn sign<const AXIS: usize>(&self, point: &SurfacePoint, at: &Place) -> Look {
         let (u, v) = (at.u, at.v);
         let half = if AXIS == 0 { self.half.y } else { self.half.x };
         let edge = least(half - u.abs(), self.half.z - v.abs());
@@ -268,14 +158,14 @@ impl BoxThing {
     }
 
     #[inline(always)]
-    fn fence(&self, point: &SurfacePoint, at: &Place) -> Look {
+    pub(crate) fn fence(&self, point: &SurfacePoint, at: &Place) -> Look {
         let u = at.u;
         let bars = stripes(u / 0.14, 0.0, 0.4, point.footprints_m[0] / 0.14);
         Look::matt(Vec3::new(0.10, 0.11, 0.115).lerp(Vec3::splat(0.35), bars), point.normal)
     }
 
     #[inline(always)]
-    fn stone(&self, point: &SurfacePoint, at: &Place, noise: &NoiseTexture) -> Look {
+    pub(crate) fn stone(&self, point: &SurfacePoint, at: &Place, noise: &NoiseTexture) -> Look {
         let (u, v) = (at.u, at.v);
         let size = point.footprint_m;
         let stain = noise.clumps(u * 3.0, v * 3.0, size * 3.0);
@@ -286,7 +176,7 @@ impl BoxThing {
 
     /// Stripes of an awning and of the cloth that hangs from it; crates full of fruit.
     #[inline(always)]
-    fn stall(&self, point: &SurfacePoint, at: &Place, noise: &NoiseTexture) -> Look {
+    pub(crate) fn stall(&self, point: &SurfacePoint, at: &Place, noise: &NoiseTexture) -> Look {
         let size = point.footprint_m;
         if most(self.half.x, self.half.y) > WIDEST_CRATE_M {
             let along = if self.half.x >= self.half.y { at.local.x } else { at.local.y };
@@ -300,7 +190,7 @@ impl BoxThing {
     }
 
     #[inline(always)]
-    fn furniture(&self, point: &SurfacePoint, at: &Place, noise: &NoiseTexture) -> Look {
+    pub(crate) fn furniture(&self, point: &SurfacePoint, at: &Place, noise: &NoiseTexture) -> Look {
         let (u, v) = (at.u, at.v);
         let plank = stripes(v / 0.12, 0.0, 0.12, point.footprints_m[1] / 0.12);
         let streak = noise.clumps(u * 8.0 + unit(hash(self.seed, 8)) * 50.0, v * 40.0, point.footprint_m * 20.0);
@@ -308,19 +198,7 @@ impl BoxThing {
     }
 }
 
-simd_kernel! {
-    /// The look of a box that is not a building.
-    pub fn things(shared: &[Shared], blocks: &mut [Block], thing: &BoxThing, noise: &NoiseTexture) {
-        let thing = *thing;
-        match thing.axis {
-            0 => thing.all::<0>(shared, blocks, noise),
-            1 => thing.all::<1>(shared, blocks, noise),
-            _ => thing.all::<2>(shared, blocks, noise),
-        }
-    }
-}
-
 #[inline(always)]
-fn metal(point: &SurfacePoint, albedo: Vec3) -> Look {
+pub(crate) fn metal(point: &SurfacePoint, albedo: Vec3) -> Look {
     Look { mirror: 0.08, ..Look::matt(albedo, point.normal) }
 }

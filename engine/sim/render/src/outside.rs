@@ -5,6 +5,7 @@ use crate::scene::{Scene, clusters_of, set_roofs};
 use cosfly_domain::Town;
 use cosfly_frames::DVec3;
 use cosfly_materials::drawn_shapes::cut_to_drawn;
+use cosfly_materials::ground_kinds::GroundKinds;
 use cosfly_materials::parts::{BOX_FACES, Cluster, SceneBox, boxes_of};
 
 /// A static face: numbered by its place in [`Scene::faces_of`].
@@ -32,7 +33,7 @@ impl Scene {
         // Looks alone depend on a seed.
         let mut boxes = boxes_of(town, 0);
         set_roofs(&mut boxes);
-        cut_to_drawn(&mut boxes);
+        cut_to_drawn(&mut boxes, &GroundKinds::of(town));
         faces(&boxes, &clusters_of(town))
     }
 }

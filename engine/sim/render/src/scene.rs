@@ -129,7 +129,7 @@ impl Scene {
         let grid = LightGrid::new(&boxes, &clusters);
         let season = cosfly_materials::season::of_town(look_seed);
         let outskirts = Outskirts::of(&grid, season);
-        cut_to_drawn(&mut boxes);
+        cut_to_drawn(&mut boxes, &ground);
         let props = Props::new(town, models, look_seed);
         props.replace(&mut boxes);
         let parked = cars(&props);

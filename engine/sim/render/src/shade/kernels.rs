@@ -18,7 +18,7 @@ use cosfly_materials::lane_wear::worn;
 use cosfly_materials::lanes::{Block, PendingFours, Shared, StageRow, WIDE};
 use cosfly_materials::leaves::{Crowns, even_leaves, leaves, swell};
 use cosfly_materials::paving::pave;
-use cosfly_materials::things::things;
+use cosfly_materials::thing_paint::things;
 
 /// Sunlight on leaves is looked up this far towards the sun, metres.
 const OFF_CROWN_M: f32 = 1.5;

@@ -11,6 +11,7 @@ use cosfly_materials::lanes::PendingFours;
 use cosfly_materials::light::Light;
 use cosfly_materials::parts::{BOX_FACES, SceneBox};
 use cosfly_materials::roof_step::FaceLook;
+use cosfly_materials::thing_form::ThingForm;
 use cosfly_materials::things::BoxThing;
 use cosfly_materials::vector::Vec3;
 
@@ -75,7 +76,7 @@ pub(super) fn box_material(b: &SceneBox, face: usize, night: f32) -> Material {
     if b.kind != ObstacleKind::Building {
         match b.kind {
             ObstacleKind::TreeCrown | ObstacleKind::Bush => Material::Leaves,
-            kind => Material::Thing(BoxThing::new(kind, center, axes, half, b.seed, axis, night)),
+            _ => Material::Thing(BoxThing::of(b, axis, night)),
         }
     } else if let Some(material) = roof_material(b, face, (center, axes)) {
         material
@@ -143,6 +144,9 @@ impl Material {
             Self::Facade(..) => Answers { wettable: false, shiny: true, glows: true },
             Self::Roof(_) => Answers { wettable: true, shiny: false, glows: false },
             Self::Coach(_) => Answers { wettable: false, shiny: true, glows: true },
+            Self::Thing(thing) if thing.form != ThingForm::Plain => {
+                Answers { wettable: false, shiny: thing.form.is_shiny(), glows: thing.form == ThingForm::Cabin }
+            }
             Self::Thing(thing) => match thing.kind {
                 ObstacleKind::Car | ObstacleKind::Lamp | ObstacleKind::TrafficLight | ObstacleKind::Pole => {
                     Answers { wettable: false, shiny: true, glows: true }
