@@ -128,6 +128,17 @@ fn round_crowns_are_as_in_large_pictures() {
     agrees_with_large(&town, 12, 20, 800);
 }
 
+/// Hulls and slides have faces that lean, and containers stand back from the ends of their stacks, under any seed of looks.
+#[test]
+fn boats_containers_and_things_to_play_on_are_as_in_large_pictures() {
+    for (place, seed) in [("waterfront", 4), ("industrial", 4), ("campus", 5)] {
+        let mut town = towns::generated(place, seed);
+        // Cars of maps are boxes in small pictures.
+        town.obstacles.retain(|one| one.kind != ObstacleKind::Car);
+        agrees_with_large(&town, 8, 10, 800);
+    }
+}
+
 #[test]
 fn uptown_is_as_in_large_pictures() {
     agrees_with_large(&towns::shipped("uptown.xodr"), 8, 20, 1500);
@@ -146,8 +157,9 @@ fn sloped_towns_are_as_in_large_pictures() {
 #[test]
 fn boxes_are_where_rays_in_full_precision_hit_them() {
     let mut town = towns::shipped("downtown.xodr");
-    // Of crowns, lobes within their boxes are drawn.
-    town.obstacles.retain(|one| one.kind != ObstacleKind::TreeCrown);
+    // Benches, shelters and crowns are drawn of parts and lobes within their boxes.
+    let is_drawn_within = |kind| matches!(kind, ObstacleKind::Bench | ObstacleKind::Static | ObstacleKind::TreeCrown);
+    town.obstacles.retain(|one| !is_drawn_within(one.kind));
     let batch = BatchScene::new(&town, Seed([1; 32]));
     let tree = BoxBvh::build(town.obstacles.iter().map(|obstacle| obstacle.shape).collect());
     let (mut compared, mut wrong) = (0, 0);

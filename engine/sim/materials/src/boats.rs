@@ -3,7 +3,7 @@
 use crate::containers::{HIGH_M, WIDE_M, place};
 use crate::parts::SceneBox;
 use crate::pattern::{draw, hash};
-use crate::plan::Plan;
+use crate::plan::{Plan, shape_seed};
 use crate::thing_form::ThingForm;
 use cosfly_domain::ObstacleKind;
 use cosfly_frames::DVec2;
@@ -28,11 +28,13 @@ const BAY_M: f64 = 13.1;
 
 /// The parts of a box that has the measures of a boat or ship and lies on water.
 pub(crate) fn boat(b: &SceneBox, is_afloat: &dyn Fn() -> bool) -> Option<Vec<SceneBox>> {
-    let plan = Plan::of(b).turned(draw(b.seed, 720) < 0.5);
+    // Shapes are the same under every seed of looks.
+    let seed = shape_seed(b);
+    let plan = Plan::of(b).turned(draw(seed, 720) < 0.5);
     if plan.is_within(BOAT_M) && plan.size_m.x >= 1.8 * plan.size_m.y && is_afloat() {
-        Some(small(&plan, b.seed))
+        Some(small(&plan, seed))
     } else if plan.is_within(SHIP_M) && plan.size_m.x >= 3.0 * plan.size_m.y && is_afloat() {
-        Some(ship(&plan, b.seed))
+        Some(ship(&plan, seed))
     } else {
         None
     }

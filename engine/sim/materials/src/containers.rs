@@ -19,7 +19,8 @@ const SHORT_SHARE: f32 = 0.22;
 /// Containers of a stack stand back by up to this much at either end, metres.
 const BACK_M: f64 = 0.09;
 
-/// The containers of a box that has the measures of a stack of them.
+/// The containers of a box that has the measures of a stack of them. `seed` draws their shapes, and with the seed of the
+/// looks their paints.
 pub(crate) fn stack(plan: &Plan<'_>, seed: u32) -> Option<Vec<SceneBox>> {
     let size_m = plan.size_m;
     let high = (size_m.z / HIGH_M).round();
@@ -51,7 +52,7 @@ pub(crate) fn place(plan: &Plan<'_>, seed: u32, low: [f64; 3], high: [f64; 3]) -
             let [start, end] = [1, 2].map(|index| BACK_M * f64::from(draw(seed, index)));
             let one =
                 plan.shaped(ThingForm::Container, [from_m + start, low[1], low[2]], [to_m - end, high[1], high[2]]);
-            SceneBox { seed, ..one }
+            SceneBox { seed: hash(seed, one.seed), ..one }
         })
         .collect()
 }

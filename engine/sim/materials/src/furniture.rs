@@ -4,7 +4,7 @@ use crate::boats::boat;
 use crate::containers::stack;
 use crate::ground_kinds::GroundKinds;
 use crate::parts::SceneBox;
-use crate::plan::Plan;
+use crate::plan::{Plan, shape_seed};
 use crate::street_things::street_thing;
 use crate::thing_form::ThingForm;
 use cosfly_domain::ObstacleKind;
@@ -46,7 +46,8 @@ pub fn furnish(boxes: &mut Vec<SceneBox>, ground: &GroundKinds) {
             ObstacleKind::Bush if plan.size_m.x >= HEDGE * plan.size_m.y => plan.hedge(),
             ObstacleKind::Static => {
                 let is_afloat = || ground.is_water(b.center_in_world.truncate());
-                let parts = stack(&plan, b.seed).or_else(|| boat(&b, &is_afloat)).or_else(|| street_thing(&b, ground));
+                let parts =
+                    stack(&plan, shape_seed(&b)).or_else(|| boat(&b, &is_afloat)).or_else(|| street_thing(&b, ground));
                 parts.unwrap_or_else(|| vec![b])
             }
             _ => vec![b],

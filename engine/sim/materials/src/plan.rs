@@ -1,12 +1,18 @@
 //! [`Plan`]: a box seen along its longer side, and the parts that things are drawn of within it.
 
 use crate::parts::{BOX_FACES, SceneBox};
+use crate::pattern::hash;
 use crate::thing_form::ThingForm;
 use cosfly_domain::ObstacleKind;
 use cosfly_frames::{DVec2, DVec3};
 
 /// Half the size of a box may be over or under a measure by this much, metres.
 pub(crate) const CLOSE_M: f64 = 0.03;
+
+/// The seed of the shapes of a thing's parts: the same under every seed of looks, because depth and labels have none.
+pub(crate) fn shape_seed(b: &SceneBox) -> u32 {
+    hash(b.instance, 0x5e1f)
+}
 
 fn swapped(at: DVec3) -> DVec3 {
     DVec3::new(at.y, at.x, at.z)

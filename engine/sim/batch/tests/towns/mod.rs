@@ -5,7 +5,9 @@ use cosfly_figures::{Bystander, Walker};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_maps::{MapConfig, read_town};
+use cosfly_places::kinds::ALL;
 use cosfly_town::GroundIndex;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// A town of the shipped recipes.
@@ -18,6 +20,15 @@ pub fn shipped(name: &str) -> Town {
 pub fn of_file(path: &Path) -> Town {
     let map = std::fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     read_town(&map, &MapConfig::default(), Seed([5; 32])).expect("a map").0
+}
+
+/// A generated town of a kind of place.
+#[allow(dead_code, reason = "each test file uses some of these towns")]
+pub fn generated(place: &str, seed: u64) -> Town {
+    let kind = ALL.iter().find(|kind| kind.name == place).expect("a kind of place");
+    let settings = kind.settings(&BTreeMap::new()).expect("its usual settings");
+    let map = kind.open_drive(&settings, seed);
+    read_town(map.as_bytes(), &MapConfig::default(), Seed([5; 32])).expect("a map").0
 }
 
 /// A camera, the target that it looks at, and other people around.
