@@ -211,6 +211,31 @@ mod tests {
     }
 
     #[test]
+    fn shelters_open_to_their_street() {
+        for side in [-1.0, 1.0] {
+            let shape = OrientedBox::from_corners(DVec3::new(-2.0, -0.7, 0.0), DVec3::new(2.0, 0.7, 2.6));
+            let obstacles = vec![Obstacle { shape, kind: ObstacleKind::Static, object_id: 7, synthetic: false }];
+            let corners = [[-9.0, 1.5 * side], [9.0, 1.5 * side], [0.0, 9.0 * side]];
+            let road = SurfaceMesh {
+                label: SemanticLabel::Roads,
+                vertices_in_world: corners.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec(),
+                along_across_m: vec![DVec2::ZERO; 3],
+                triangles: vec![[0, 1, 2]],
+                synthetic: false,
+            };
+            let town = Town { obstacles, surfaces: vec![road], ..Town::default() };
+            let mut boxes = boxes_of(&town, 1);
+            furnish(&mut boxes, &GroundKinds::of(&town));
+            let panes: Vec<f64> = boxes
+                .iter()
+                .filter(|part| part.thing == ThingForm::Glass && part.half_extents_m.y < 0.1)
+                .map(|part| part.center_in_world.y * side)
+                .collect();
+            assert!(panes.len() == 3 && panes.iter().all(|away_m| *away_m < -0.3), "{side}: {panes:?}");
+        }
+    }
+
+    #[test]
     fn boxes_of_other_sizes_and_kinds_stay() {
         for (kind, size_m) in [
             (ObstacleKind::Bench, [12.0, 0.6, 0.8]),

@@ -11,6 +11,9 @@ use super::vector::Vec3;
 /// Waves of the sheet of containers, and of other ribbed sheet, metres from one to the next.
 const WAVE_M: f32 = 0.278;
 const RIB_M: f32 = 0.5;
+/// Half the length of a cabin from which on it is the house of a ship, metres, and the share of boats that are lit at night.
+const SHIPS_HOUSE_M: f32 = 3.2;
+const LIT_BOATS: f32 = 0.3;
 /// A part of a ship that is lower is none of its hull at the water, metres.
 const LEAST_HULL_M: f32 = 2.0;
 const RUST: Vec3 = Vec3::new(0.15, 0.06, 0.028);
@@ -180,7 +183,9 @@ impl BoxThing {
             * stripes(floor, sill, lintel, dv * decks / (2.0 * half_v))
             * band(at.u, 0.15 - half_u, half_u - 0.15, du);
         let albedo = wall.albedo.lerp(Vec3::new(0.02, 0.025, 0.03), panes);
-        let lit = Vec3::new(1.0, 0.75, 0.45) * (0.06 * self.night * panes);
+        // Somebody is on every ship, and on few boats.
+        let is_lit = one_if((most(self.half.x, self.half.y) > SHIPS_HOUSE_M) | (draw(self.seed, 33) < LIT_BOATS));
+        let lit = Vec3::new(1.0, 0.75, 0.45) * (0.06 * self.night * panes * is_lit);
         Look { albedo, mirror: wall.mirror + 0.35 * panes, emission: lit, ..wall }
     }
 
