@@ -3,7 +3,7 @@
 //!
 //! [`parts`] are the boxes and ground of a town that carry materials; [`building_forms`] tells homes from halls and tanks;
 //! [`roof_steps`] and [`roof_edges`] say which of their
-//! faces make one roof, [`roof_slopes`] cuts pitched ones straight, [`round_crowns`] stacks of boxes round;
+//! faces make one roof, [`roof_slopes`] cuts pitched ones straight, [`measured`] finds the planes of crooked and scanned ones, [`round_crowns`] stacks of boxes round;
 //! [`ground_kinds`] and [`street_walls`] tell which walls stand at pavements; [`thing_form`] what a part of a thing is. [`facade`], [`ground`],
 //! [`paving`], [`kerbs`], [`lane_marks`], [`lane_wear`], [`leaves`] and [`things`] are the materials: they read points from [`lanes`] and write looks ([`surface`]). [`light`] is the sun, sky and lamps of a [`weather`]; [`grid`] how much of the sky and of
 //! the lamps each place of a town sees; [`scan_light`] the light of scans. [`season`] turns leaves and lawns.
@@ -30,6 +30,7 @@ pub mod lane_wear;
 pub mod lanes;
 pub mod leaves;
 pub mod light;
+pub mod measured;
 pub mod parts;
 pub mod pattern;
 pub mod paving;

@@ -25,6 +25,8 @@ pub struct SceneBox {
     pub axes_in_world: [DVec3; 2],
     /// Outward unit normals of its upright faces; they rise where the box was cut to the slopes of a roof.
     pub sides_in_world: [DVec3; 4],
+    /// Outward unit normal of its upper face.
+    pub top_in_world: DVec3,
     /// Kind.
     pub kind: ObstacleKind,
     /// CARLA label id.
@@ -80,7 +82,11 @@ impl SceneBox {
     /// Outward unit normal of face `face`.
     #[inline]
     pub fn normal_in_world(&self, face: usize) -> DVec3 {
-        self.sides_in_world.get(face).copied().unwrap_or(BOX_FACES[face].1 * DVec3::Z)
+        match face {
+            0..4 => self.sides_in_world[face],
+            4 => -DVec3::Z,
+            _ => self.top_in_world,
+        }
     }
 
     /// Works out middle, sizes, axes and normals from corners that make flat faces, level below and above.
@@ -168,6 +174,7 @@ fn scene_box(obstacle: &Obstacle, look_seed: u32) -> Option<SceneBox> {
         half_extents_m: half.as_vec3a(),
         axes_in_world,
         sides_in_world: [-axes_in_world[0], axes_in_world[0], -axes_in_world[1], axes_in_world[1]],
+        top_in_world: DVec3::Z,
         kind: obstacle.kind,
         label: obstacle.kind.label().id(),
         instance: obstacle.object_id.saturating_add(2),

@@ -3,6 +3,7 @@
 //! Each step keeps its foot, and its upper face shrinks to the foot of the steps over it. What is drawn lies within the
 //! boxes.
 
+use crate::measured::roofs::{box_of, has_wall};
 use crate::parts::{BOX_FACES, SceneBox};
 use crate::roof_step::{FaceLook, RoofStep};
 use crate::roof_steps::{FLUSH_M, ends_m, half_m, pitch};
@@ -13,6 +14,7 @@ const LEAST_WALL_M: f64 = 1e-3;
 
 /// Cuts all boxes of pitched roofs; walls below get a box of their own, behind all others.
 pub fn cut_to_slopes(boxes: &mut Vec<SceneBox>) {
+    cut_to_pieces(boxes);
     let mut eaves = Vec::new();
     for b in boxes.iter_mut() {
         let Some(roof) = b.roof.as_deref().filter(|roof| roof.slope_m > 0.0 && roof.top.is_some()) else { continue };
@@ -32,6 +34,25 @@ pub fn cut_to_slopes(boxes: &mut Vec<SceneBox>) {
         }
     }
     boxes.append(&mut eaves);
+}
+
+/// Cuts the boxes of measured roofs: pieces of the roof get boxes of their own, behind all others.
+fn cut_to_pieces(boxes: &mut Vec<SceneBox>) {
+    let mut parts = Vec::new();
+    boxes.retain_mut(|b| {
+        let Some(roof) = b.roof.as_deref_mut() else { return true };
+        let Some(pieces) = roof.pieces.take() else { return true };
+        let (slope_m, wall_m) = (roof.slope_m, roof.wall_m);
+        let [foot_m, top_m] = ends_m(b);
+        let foot_of_slope_m = top_m - slope_m;
+        parts.extend(pieces.iter().map(|piece| box_of(b, piece, foot_of_slope_m.max(foot_m), wall_m)));
+        let has_wall = has_wall(foot_m, foot_of_slope_m);
+        if has_wall {
+            set_ends(b, [foot_m, foot_of_slope_m]);
+        }
+        has_wall
+    });
+    boxes.append(&mut parts);
 }
 
 fn set_ends(b: &mut SceneBox, [low_m, high_m]: [f64; 2]) {

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 /// Highest step, metres: readers of maps make steps of 0.75 and 1 m.
 pub const HIGHEST_M: f64 = 1.05;
 /// A box that begins this close to another's upper face stands on it, metres.
-const CLOSE_M: f64 = 0.03;
+pub(crate) const CLOSE_M: f64 = 0.03;
 /// A face that stands back by less continues the wall below, metres.
 pub(crate) const FLUSH_M: f64 = 0.05;
 /// Flattest slope, run over rise.
@@ -119,7 +119,7 @@ pub fn roof_steps(boxes: &[SceneBox]) -> Vec<Option<RoofStep>> {
                 let [foot_m, top_m] = ends_m(b);
                 let slope_m = rise_m.min(top_m - foot_m);
                 let wall_m = [foot_m, top_m - slope_m - foot_m];
-                RoofStep { sides: [FaceLook::Wall; 4], top: Some(slope), wall_m, slope_m }
+                RoofStep { sides: [FaceLook::Wall; 4], top: Some(slope), wall_m, slope_m, pieces: None }
             }),
         };
     }
@@ -146,6 +146,7 @@ fn top_slope(boxes: &[SceneBox], index: usize, over: &[usize], rise_m: f64) -> O
     is_slope.then(|| TopSlope {
         above_m: [middle.x, middle.y, half.x, half.y].map(|value| value as f32),
         pitch: pitch(rise_m, run_m),
+        falls: None,
     })
 }
 
@@ -167,7 +168,7 @@ fn step(
     let wall = lower.iter().filter_map(|other| steps[*other].as_ref()).map(|step| step.wall_m).next();
     let run_m = gaps_m.into_iter().filter(|gap| *gap >= FLUSH_M).fold(f64::INFINITY, f64::min);
     let top = slope.or_else(|| run_m.is_finite().then(|| ridge(half_m(b), &sides, pitch(rise_m, run_m))));
-    RoofStep { sides, top, wall_m: wall.unwrap_or([foot_m, rise_m]), slope_m: rise_m }
+    RoofStep { sides, top, wall_m: wall.unwrap_or([foot_m, rise_m]), slope_m: rise_m, pieces: None }
 }
 
 /// The last step falls to both sides of a ridge: between gables, else along the longer side.
@@ -175,7 +176,7 @@ fn ridge(half_m: DVec2, sides: &[FaceLook; 4], pitch: RoofPitch) -> TopSlope {
     let is_gable = |first: usize| sides[first] == FaceLook::Gable && sides[first + 1] == FaceLook::Gable;
     let is_along_x = if is_gable(0) == is_gable(2) { half_m.x >= half_m.y } else { is_gable(0) };
     let [x, y] = if is_along_x { [half_m.x as f32, 0.0] } else { [0.0, half_m.y as f32] };
-    TopSlope { above_m: [0.0, 0.0, x, y], pitch }
+    TopSlope { above_m: [0.0, 0.0, x, y], pitch, falls: None }
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use cosfly_domain::{ObstacleKind, OrientedBox, Town};
 use cosfly_frames::{DVec3, real};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
-use cosfly_materials::roof_steps::HIGHEST_M;
+use cosfly_materials::measured::pieces::DEEPEST_M;
 
 /// Length by which each face of a building is moved inwards, metres: nothing that is seen past an edge counts as hidden.
 const EDGE_M: f64 = 0.1;
@@ -15,9 +15,9 @@ impl Buildings {
     /// Buildings of `town`.
     pub fn of(town: &Town) -> Self {
         let buildings = town.obstacles.iter().filter(|obstacle| obstacle.kind == ObstacleKind::Building);
-        let off_m = DVec3::new(EDGE_M, EDGE_M, EDGE_M + 0.5 * HIGHEST_M);
+        let off_m = DVec3::new(EDGE_M, EDGE_M, EDGE_M + 0.5 * DEEPEST_M);
         let smaller = |shape: &OrientedBox| OrientedBox {
-            center_in_world: shape.center_in_world - 0.5 * HIGHEST_M * DVec3::Z,
+            center_in_world: shape.center_in_world - 0.5 * DEEPEST_M * DVec3::Z,
             half_extents_m: shape.half_extents_m - off_m,
             ..*shape
         };

@@ -19,6 +19,7 @@ use cosfly_materials::kerb_lines::edges_of_pavements;
 use cosfly_materials::kerbs::{KerbLine, tone_of_town};
 use cosfly_materials::lane_wear::LaneWear;
 use cosfly_materials::leaves::Leaves;
+use cosfly_materials::measured::roofs::measured_roofs;
 use cosfly_materials::parts::{BOX_FACES, Cluster, ClusterPolygon, SceneBox, boxes_of, join_wholes};
 use cosfly_materials::pattern::{NoiseTexture, noise_texture};
 use cosfly_materials::roof_edges::roofs_that_go_on;
@@ -67,7 +68,8 @@ pub struct Scene {
 
 /// Tells all boxes their places in pitched roofs.
 pub(crate) fn set_roofs(boxes: &mut [SceneBox]) {
-    let steps = roof_steps(boxes);
+    let mut steps = roof_steps(boxes);
+    measured_roofs(boxes, &mut steps);
     boxes.iter_mut().zip(steps).for_each(|(b, step)| b.roof = step.map(Box::new));
 }
 

@@ -89,7 +89,8 @@ pub struct Tiles {
 impl Tiles {
     /// The upper face of a step of a building `seed` around `center`.
     pub fn top(seed: u32, town: u32, center: Vec3, axes: [Vec3; 2], slope: &TopSlope) -> Self {
-        let side = Self::side(seed, town, Vec3::ZERO, slope.pitch);
+        let outward = slope.falls.map_or(Vec3::ZERO, |[x, y]| Vec3::new(x, y, 0.0));
+        let side = Self::side(seed, town, outward, slope.pitch);
         Self { center, axes, above_m: slope.above_m, ..side }
     }
 

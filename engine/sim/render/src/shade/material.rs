@@ -63,7 +63,11 @@ pub(super) fn box_axes(b: &SceneBox, face: usize) -> FaceAxes {
     let axis = BOX_FACES[face].0;
     let axes = b.axes_in_world.map(Vec3::from);
     let up = if axis == 2 { axes[1] } else { Vec3::new(0.0, 0.0, 1.0) };
-    FaceAxes { along: axes[usize::from(axis == 0)], up }
+    let is_piece = axis != 2 && b.roof.as_deref().is_some_and(|roof| roof.top.is_some_and(|top| top.falls.is_some()));
+    // Pieces of roofs have sides of their own.
+    let out: Vec3 = b.normal_in_world(face).into();
+    let along = if is_piece { Vec3::new(-out.y, out.x, 0.0) } else { axes[usize::from(axis == 0)] };
+    FaceAxes { along, up }
 }
 
 /// Material of a face of a box.
@@ -98,10 +102,15 @@ fn roof_material(b: &SceneBox, face: usize, (center, axes): (Vec3, [Vec3; 2])) -
     if axis == 2 {
         let slope = step.top.filter(|_| sign > 0.0)?;
         let tiles = Tiles::top(b.seed, b.town, center, axes, &slope);
-        return Some(Material::Tiles(tiles.of_roof(b, step.wall_m)));
+        // Windows have their places on whole slopes.
+        let is_piece = slope.falls.is_some();
+        return Some(Material::Tiles(if is_piece { tiles } else { tiles.of_roof(b, step.wall_m) }));
     }
     match step.sides[face] {
         FaceLook::Wall => None,
+        FaceLook::Slope(_) if step.top.is_some_and(|top| top.falls.is_some()) => {
+            step.top.map(|slope| Material::Tiles(Tiles::top(b.seed, b.town, center, axes, &slope)))
+        }
         FaceLook::Slope(pitch) => {
             let tiles = Tiles::side(b.seed, b.town, axes[axis] * sign as f32, pitch);
             Some(Material::Tiles(tiles.of_roof(b, step.wall_m)))
@@ -112,7 +121,7 @@ fn roof_material(b: &SceneBox, face: usize, (center, axes): (Vec3, [Vec3; 2])) -
             let look =
                 Facade::new(b.seed, b.town, face as u32, [2.0 * half_width, height_m], (b.form, 2.0 * b.whole[1].z))
                     .bare();
-            let along = axes[usize::from(axis == 0)];
+            let along = box_axes(b, face).along;
             let edge_m = center.dot(along) - half_width;
             Some(Material::Facade(look, BoxFace { along, edge_m, foot_m }))
         }
