@@ -15,8 +15,10 @@ const LEAST_M2: f64 = 1e-4;
 const LEAST_SHARE: f64 = 0.3;
 /// Shares of cells without a plane up to which they follow the others, and from which on all are level.
 const FLAT_SHARES: [f64; 2] = [0.25, 0.8];
+/// Share of a part's cells below a plane that it takes after.
+const LEAST_LABEL: f64 = 0.05;
 /// Most halvings of a box.
-const MOST_HALVINGS: usize = 6;
+const MOST_HALVINGS: usize = 5;
 /// Around a part, places that tell which of two planes is the lower one, metres.
 const BESIDE_M: f64 = 0.8;
 /// What stands on an upper face is higher by more, metres.
@@ -67,11 +69,14 @@ impl Cutter<'_> {
             };
             let over = |limit_m: f64, sign: f64| move |at: DVec2| sign * (plane.at(at) - limit_m);
             let cut_off = clipped(&corners, over(top_m, 1.0));
-            if !self.is_hidden(&cut_off, top_m) {
+            if !self.is_hidden(&cut_off, top_m, &level) {
                 self.add(&cut_off, &level, &plane, &mut pieces);
             }
             let below = clipped(&corners, over(top_m, -1.0));
-            self.add(&clipped(&below, over(floor_m, 1.0)), &plane, &plane, &mut pieces);
+            let sloped = clipped(&below, over(floor_m, 1.0));
+            if !self.is_hidden(&sloped, top_m, &plane) {
+                self.add(&sloped, &plane, &plane, &mut pieces);
+            }
             if floor_m > foot_m {
                 let floor = Plane { base_m: floor_m, ..level };
                 self.add(&clipped(&below, over(floor_m, -1.0)), &floor, &plane, &mut pieces);
@@ -80,12 +85,14 @@ impl Cutter<'_> {
         Some(pieces)
     }
 
-    /// Whether higher boxes stand on all of an outline.
-    fn is_hidden(&self, outline: &[DVec2], top_m: f64) -> bool {
+    /// Whether higher boxes stand over all of an outline on a surface.
+    fn is_hidden(&self, outline: &[DVec2], top_m: f64, surface: &Plane) -> bool {
         let is_below = |at: DVec2| {
             let cell = self.terraces.cell_at(at);
             cell.is_some_and(|cell| {
-                self.terraces.around(cell, 1).all(|near| self.terraces.tops_m[near] > top_m + STANDS_M)
+                let most_m = surface.at(at) + STANDS_M;
+                let Terraces { tops_m, feet_m, .. } = self.terraces;
+                self.terraces.around(cell, 1).all(|near| tops_m[near] > top_m + STANDS_M && feet_m[near] < most_m)
             })
         };
         let sides = (0..outline.len()).map(|k| [outline[k], outline[(k + 1) % outline.len()]]);
@@ -155,7 +162,7 @@ impl Cutter<'_> {
         let all: usize = counts.iter().map(|(_, count)| count).sum();
         let flat = counts.iter().find(|(label, _)| *label == NONE).map_or(0, |(_, count)| *count) as f64;
         let flat_share = if all == 0 { 1.0 } else { flat / all as f64 };
-        let least = (0.02 * all as f64) as usize;
+        let least = (LEAST_LABEL * all as f64) as usize;
         let labels: Vec<u16> =
             counts.iter().filter(|(label, count)| *label != NONE && *count > least).map(|(label, _)| *label).collect();
         let corners = self.corners_of(b, part);

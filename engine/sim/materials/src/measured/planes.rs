@@ -13,11 +13,11 @@ const OFF_M: f64 = 0.18;
 /// Rises of slopes, metres per metre.
 const RISES: [f64; 2] = [0.12, 4.0];
 /// Least area of a plane over the ground, square metres.
-const LEAST_M2: f64 = 2.5;
+const LEAST_M2: f64 = 3.5;
 /// Planes stand over a cell's top by less, metres, before they are lowered.
 const OVER_M: f64 = 0.1;
 /// Share of a plane's cells over which it may stand.
-const SHARE_OVER: f64 = 0.015;
+const SHARE_OVER: f64 = 0.01;
 /// Cells beside each other whose planes differ by less are of one roof, metres.
 const JOINED_M: f64 = 0.5;
 

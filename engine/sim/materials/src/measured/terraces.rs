@@ -9,7 +9,7 @@ pub const STEP_M: f64 = 1.3;
 /// Upper faces whose heights differ by less are one terrace, metres.
 const ONE_TERRACE_M: f64 = 0.06;
 /// Sides of cells, metres.
-const CELL_M: [f64; 2] = [0.25, 0.5];
+const CELL_M: [f64; 2] = [0.25, 0.6];
 /// Cells along a building that are enough.
 const ENOUGH: f64 = 240.0;
 /// Most cells of one building.
@@ -34,6 +34,8 @@ pub struct Terraces {
     pub size: [usize; 2],
     /// Height of each cell's highest box, world, metres; minus infinity where none stands.
     pub tops_m: Vec<f64>,
+    /// Foot of that box, world, metres.
+    pub feet_m: Vec<f64>,
     /// Rows and columns to the nearest cell at the end of its terrace.
     to_end: Vec<u16>,
 }
@@ -61,7 +63,7 @@ impl Terraces {
         }
         let wide = high - low;
         let narrow_m = members.iter().map(|index| half_m(&boxes[*index]).min_element()).fold(f64::INFINITY, f64::min);
-        let cell_m = (wide.max_element() / ENOUGH).max(0.5 * narrow_m).clamp(CELL_M[0], CELL_M[1]);
+        let cell_m = (wide.max_element() / ENOUGH).max(narrow_m).clamp(CELL_M[0], CELL_M[1]);
         let size = (wide / cell_m).ceil() + 2.0;
         if !(size.element_product() <= MOST_CELLS) {
             return None;
@@ -70,16 +72,19 @@ impl Terraces {
         let start = low - cell_m;
         let origin = axes[0] * start.x + axes[1] * start.y;
         let tops_m = vec![f64::NEG_INFINITY; size[0] * size[1]];
-        let mut terraces = Self { origin, axes, cell_m, size, tops_m, to_end: Vec::new() };
+        let feet_m = tops_m.clone();
+        let mut terraces = Self { origin, axes, cell_m, size, tops_m, feet_m, to_end: Vec::new() };
         members.iter().for_each(|index| terraces.add(&boxes[*index]));
         terraces.to_end = terraces.steps_to_end();
         Some(terraces)
     }
 
     fn add(&mut self, b: &SceneBox) {
-        let top_m = ends_m(b)[1];
+        let [foot_m, top_m] = ends_m(b);
         for cell in self.cells_of(b, CRACK_M) {
-            self.tops_m[cell] = self.tops_m[cell].max(top_m);
+            if top_m > self.tops_m[cell] {
+                (self.feet_m[cell], self.tops_m[cell]) = (foot_m, top_m);
+            }
         }
     }
 
