@@ -1,6 +1,7 @@
 //! [`Planes`]: planes of a pitched roof, and which cells lie below which.
 
 use super::terraces::{STEP_M, Terraces};
+use crate::parts::SceneBox;
 use cosfly_frames::{DVec2, DVec3};
 use std::collections::VecDeque;
 
@@ -16,7 +17,7 @@ const RISES: [f64; 2] = [0.12, 4.0];
 const LEAST_M2: f64 = 3.5;
 /// Planes stand over a cell's top by less, metres, before they are lowered.
 const OVER_M: f64 = 0.1;
-/// Share of a plane's cells over which it may stand.
+/// Share of the feet of steps over which a plane may stand.
 const SHARE_OVER: f64 = 0.01;
 /// Cells beside each other whose planes differ by less are of one roof, metres.
 const JOINED_M: f64 = 0.5;
@@ -85,7 +86,7 @@ impl Sums {
 
 impl Planes {
     /// The planes below terraces.
-    pub fn below(terraces: &Terraces) -> Self {
+    pub fn below(terraces: &Terraces, boxes: &[SceneBox], members: &[usize]) -> Self {
         let heights_m = terraces.slopes_m();
         let own = own_planes(terraces, &heights_m);
         let mut labels = vec![NONE; heights_m.len()];
@@ -112,7 +113,7 @@ impl Planes {
         }
         let mut found = Self { planes, labels, eaves_m: Vec::new(), share: 0.0 };
         found.spread(terraces);
-        found.lower(terraces);
+        found.lower(terraces, boxes, members);
         found.eaves_m = found.eaves(terraces);
         let all = terraces.tops_m.iter().filter(|top_m| top_m.is_finite()).count();
         found.share = found.labels.iter().filter(|label| **label != NONE).count() as f64 / all.max(1) as f64;
@@ -175,16 +176,24 @@ impl Planes {
         }
     }
 
-    /// Moves each plane up or down until it touches the terraces from below, but for a few cells.
-    fn lower(&mut self, terraces: &Terraces) {
-        let mut under_m: Vec<Vec<f64>> = vec![Vec::new(); self.planes.len()];
-        for (cell, label) in self.labels.iter().enumerate().filter(|(_, label)| **label != NONE) {
-            let plane = &self.planes[usize::from(*label)];
-            // The highest place of the cell.
-            let high_m = plane.at(terraces.middle(cell)) + 0.25 * terraces.cell_m * plane.rise.abs().element_sum();
-            under_m[usize::from(*label)].push(terraces.tops_m[cell] - high_m);
+    /// Lays each plane through the feet of the steps over it, which are known exactly, and moves it down until it touches them from
+    /// below, but for a few.
+    fn lower(&mut self, terraces: &Terraces, boxes: &[SceneBox], members: &[usize]) {
+        let mut feet: Vec<Vec<(DVec2, f64)>> = vec![Vec::new(); self.planes.len()];
+        for (at, foot_m, cells) in members.iter().flat_map(|index| terraces.steps_of(&boxes[*index])) {
+            let [inner, outer] = cells.map(|cell| self.labels[cell]);
+            if inner == outer && inner != NONE {
+                feet[usize::from(inner)].push((at, foot_m));
+            }
         }
-        for (plane, under_m) in self.planes.iter_mut().zip(&mut under_m) {
+        for (plane, feet) in self.planes.iter_mut().zip(&feet) {
+            let Some((from, _)) = feet.first() else { continue };
+            let mut sums = Sums::default();
+            feet.iter().for_each(|(at, foot_m)| sums.add(*at - *from, *foot_m));
+            let exact = sums.plane().map(|new| Plane { base_m: new.base_m - new.rise.dot(*from), ..new });
+            let is_alike = |new: &Plane| (new.rise - plane.rise).length() < 0.1 + 0.5 * plane.rise.length();
+            *plane = exact.filter(is_alike).unwrap_or(*plane);
+            let mut under_m: Vec<f64> = feet.iter().map(|(at, foot_m)| foot_m - plane.at(*at)).collect();
             under_m.sort_by(f64::total_cmp);
             plane.base_m += under_m[(SHARE_OVER * under_m.len() as f64) as usize];
         }

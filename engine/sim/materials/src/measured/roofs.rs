@@ -14,6 +14,8 @@ use std::collections::BTreeMap;
 const LEAST_WALL_M: f64 = 1e-3;
 /// Level parts of a measured roof that are smaller are of tiles, square metres.
 const SMALL_M2: f64 = 30.0;
+/// Pieces within a roof go down so far below it, metres: their neighbours hide what is below.
+const DEEP_M: f64 = 0.2;
 /// Share of a roof's area that must have slopes for that.
 const MOSTLY: f64 = 0.6;
 /// Rows of tiles on level parts fall along x.
@@ -29,7 +31,7 @@ pub fn measured_roofs(boxes: &[SceneBox], steps: &mut [Option<RoofStep>]) {
     }
     for members in buildings.values().filter(|members| members.len() > 2 && !are_nested(boxes, members)) {
         let Some(terraces) = Terraces::of(boxes, members).filter(Terraces::have_steps) else { continue };
-        let planes = Planes::below(&terraces);
+        let planes = Planes::below(&terraces, boxes, members);
         if planes.planes.is_empty() {
             continue;
         }
@@ -83,6 +85,8 @@ fn step_of(b: &SceneBox, cutter: &Cutter<'_>, foot_of_house_m: f64) -> Option<Ro
 /// A box that is the part of `b` between a height and a piece of its roof.
 pub fn box_of(b: &SceneBox, piece: &RoofPiece, foot_m: f64, wall_m: [f64; 2]) -> SceneBox {
     let mut part = b.clone();
+    let low_m = piece.corners_in_world.iter().map(|corner| corner.z).fold(f64::INFINITY, f64::min);
+    let foot_m = if piece.goes_on == [true; 4] { foot_m.max(low_m - DEEP_M) } else { foot_m };
     // Corners 0, 1, 3, 2 lie in order around.
     for (number, place) in [(0, 0), (1, 1), (3, 2), (2, 3)] {
         let corner = piece.corners_in_world[place];

@@ -126,6 +126,31 @@ impl Terraces {
         cells
     }
 
+    /// Places along the sides of a box above which it rises by a step: the place, the height of the terrace below the step, and the cells on both
+    /// sides.
+    pub fn steps_of(&self, b: &SceneBox) -> Vec<(DVec2, f64, [usize; 2])> {
+        let (half, top_m) = (half_m(b), ends_m(b)[1]);
+        let axes = b.axes_in_world.map(|axis| axis.truncate());
+        let mut found = Vec::new();
+        for side in 0..4 {
+            let (out, along) = (axes[side / 2], axes[1 - side / 2]);
+            let out = if side % 2 == 0 { -out } else { out };
+            let (reach, length) = (half[side / 2], half[1 - side / 2]);
+            let count = (2.0 * length / self.cell_m).ceil().clamp(1.0, 1000.0);
+            for place in 0..count as usize {
+                let share = 2.0 * (place as f64 + 0.5) / count - 1.0;
+                let at = b.center_in_world.truncate() + reach * out + share * length * along;
+                let near = [-1.0, 1.0].map(|way| self.cell_at(self.local(at + way * 0.75 * self.cell_m * out)));
+                let [Some(inner), Some(outer)] = near else { continue };
+                let rise_m = top_m - self.tops_m[outer];
+                if (self.tops_m[inner] - top_m).abs() < 1e-6 && rise_m > ONE_TERRACE_M && rise_m <= STEP_M {
+                    found.push((self.local(at), self.tops_m[outer], [inner, outer]));
+                }
+            }
+        }
+        found
+    }
+
     /// A direction of the world along the grid.
     pub fn turned(&self, direction: DVec2) -> DVec2 {
         DVec2::new(direction.dot(self.axes[0]), direction.dot(self.axes[1]))
