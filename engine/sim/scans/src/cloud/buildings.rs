@@ -3,13 +3,14 @@
 use super::class;
 use super::numbers::next_id;
 use super::outline::smooth_unseen;
+use super::slopes::{PITCHED_SHARE, SLOPE_STEP_M, Slopes};
 use super::survey::{Survey, is_ground, plan_of};
 use crate::grid::{Grid, nearest_seeds, parts};
 use crate::plan::{convex_hull, smallest_rectangle_rad};
 use crate::solid_cells::{BoxCover, boxes_of};
 use crate::window_cover::{Bases, Column, Volumes};
 use cosfly_domain::{Obstacle, ObstacleKind};
-use cosfly_frames::{DVec2, real};
+use cosfly_frames::{DVec2, DVec3, real};
 use rayon::prelude::*;
 
 /// A roof over ground that was seen under it is no wall where it hangs higher than this, metres.
@@ -42,10 +43,10 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) -> Volumes {
             let site = Site::new(survey, cells, &part);
             let rasters = site.directions_rad(cells, &is_building).map(|yaw_rad| site.columns(yaw_rad));
             // Walls along the cells take few boxes and have few corners.
-            let mut rasters = rasters.map(|raster| (corners(&raster, survey.step_m), raster));
+            let mut rasters = rasters.map(|raster| (corners(&raster), raster));
             rasters.sort_by_key(|(corners, _)| *corners);
-            let covers = rasters[..2].iter().map(|(_, Raster { grid, columns, is_free })| {
-                boxes_of(grid, columns, survey.step_m, Bases::Highest, |cell| is_free[cell])
+            let covers = rasters[..2].iter().map(|(_, Raster { grid, columns, is_free, step_m })| {
+                boxes_of(grid, columns, *step_m, Bases::Highest, |cell| is_free[cell])
             });
             covers.min_by_key(|cover| cover.shapes.len()).unwrap_or_default()
         })
@@ -63,7 +64,7 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) -> Volumes {
 }
 
 /// Corners of the outlines of a roof's levels: middles of four cells that no straight line parts.
-fn corners(Raster { grid, columns, .. }: &Raster, step_m: f64) -> usize {
+fn corners(Raster { grid, columns, step_m, .. }: &Raster) -> usize {
     let level = |column: &Option<Column>| column.map(|column| (column.top_m / step_m).ceil() as i64);
     let levels: Vec<Option<i64>> = columns.iter().map(level).collect();
     let is_corner = |cell: usize| {
@@ -82,6 +83,8 @@ struct Raster {
     columns: Vec<Option<Column>>,
     /// Notches of its outline in which nothing was seen.
     is_free: Vec<bool>,
+    /// Height of the steps in which boxes follow its roof, metres.
+    step_m: f64,
 }
 
 /// One building: the points on it and on the ground beside it.
@@ -127,10 +130,15 @@ impl<'a> Site<'a> {
         let (cloud, cell_m) = (self.survey.cloud, self.survey.grid.cell_m);
         let grid = Grid::flush(plan_of(cloud, &self.roof), cell_m, yaw_rad);
         let mut roof: Vec<Option<Column>> = vec![None; grid.cells()];
+        let mut highest: Vec<Option<DVec3>> = vec![None; grid.cells()];
         for point in &self.roof {
             let at = cloud.point(*point);
-            let column = roof[grid.cell_of(at.truncate())].get_or_insert(Column { base_m: at.z, top_m: at.z });
+            let cell = grid.cell_of(at.truncate());
+            let column = roof[cell].get_or_insert(Column { base_m: at.z, top_m: at.z });
             *column = Column { base_m: column.base_m.min(at.z), top_m: column.top_m.max(at.z) };
+            if highest[cell].is_none_or(|highest| highest.z < at.z) {
+                highest[cell] = Some((cell_m * grid.in_cells(at.truncate())).extend(at.z));
+            }
         }
         let mut ground_m = vec![f64::NEG_INFINITY; grid.cells()];
         let mut is_seed: Vec<bool> = roof.iter().map(Option::is_some).collect();
@@ -155,11 +163,16 @@ impl<'a> Site<'a> {
         drop_slivers(&grid, &mut roofs, |cell| roof[cell].is_some());
         smooth_unseen(&grid, &mut roofs, |cell| !is_seed[cell] && is_seen(cell));
         fill_pits(&grid, &mut roofs, (self.survey.reach_cells() / 2).max(1));
+        let reach = self.survey.reach_cells();
+        let slopes = Slopes::of(&grid, &highest, reach);
+        let on_slopes = slopes.follow(&grid, &mut roofs, &seeds, (&highest, reach));
+        let is_pitched = on_slopes > PITCHED_SHARE && self.survey.follows_slopes;
+        let step_m = if is_pitched { SLOPE_STEP_M.min(self.survey.step_m) } else { self.survey.step_m };
         let columns = self.standing(&grid, &roofs, &ground_m);
         let beside = |cell: usize| grid.around_cell(cell, 1).filter(|near| columns[*near].is_some()).count();
         let is_free = |cell: usize| !is_seed[cell] && is_seen(cell) && beside(cell) >= NOTCH;
         let is_free = (0..grid.cells()).map(is_free).collect();
-        Raster { grid, columns, is_free }
+        Raster { grid, columns, is_free, step_m }
     }
 
     /// Columns from the roofs down to the foot, or to the ground that was seen in a cell, or only the roof where it

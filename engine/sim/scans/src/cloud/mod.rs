@@ -1,7 +1,7 @@
 //! From points to a town: ground, classes where the file has none, buildings, trees and other things as boxes.
 //!
 //! [`sorting`] puts the points in the order of cells, [`survey`] knows them by cell. [`ground`] finds the ground, [`classify`] tells roofs from plants.
-//! [`buildings`] are columns of cells down to the ground, [`trees`] stacks of boxes, [`things`] the rest.
+//! [`buildings`] are columns of cells down to the ground below the [`slopes`] of their roofs, [`trees`] stacks of boxes, [`things`] the rest.
 
 pub mod buildings;
 pub mod classify;
@@ -12,6 +12,7 @@ pub mod options;
 pub mod outline;
 pub mod planes;
 pub mod points;
+pub mod slopes;
 pub mod sorting;
 pub mod survey;
 pub mod table;

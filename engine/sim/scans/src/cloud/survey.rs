@@ -48,6 +48,8 @@ pub struct Survey<'a> {
     pub reach_m: f64,
     /// Height of the steps in which boxes follow roofs and things, metres.
     pub step_m: f64,
+    /// Whether boxes follow slopes in finer steps.
+    pub follows_slopes: bool,
     /// Whether the file tells plants from other things.
     pub tells_plants: bool,
 }
@@ -57,8 +59,9 @@ impl<'a> Survey<'a> {
     pub fn new(cloud: &'a Cloud, relief: Relief, sorted: Sorted, spacing_m: f64, step_m: Option<f64>) -> Self {
         let voxel_m = sorted.grid.cell_m;
         let reach_m = (REACH_IN_SPACINGS * spacing_m).clamp(voxel_m, WIDEST_REACH_M.max(voxel_m));
+        let follows_slopes = step_m.is_none();
         let step_m = step_m.unwrap_or(USUAL_STEP_M.max(voxel_m));
-        Self { cloud, relief, grid: sorted.grid, sorted, reach_m, step_m, tells_plants: true }
+        Self { cloud, relief, grid: sorted.grid, sorted, reach_m, step_m, follows_slopes, tells_plants: true }
     }
 
     /// The points of a cell.
