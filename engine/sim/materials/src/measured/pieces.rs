@@ -48,16 +48,20 @@ pub struct Cutter<'a> {
 }
 
 impl Cutter<'_> {
-    /// What is drawn of the upper part of a box; `None` where that is the whole box.
-    pub fn pieces(&self, b: &SceneBox) -> Option<Vec<RoofPiece>> {
+    /// What is drawn of the upper part of a box; `None` where that is the whole box. The second value are the planes of a box below one or two,
+    /// sorted; where each goes on over all of its part of the box, whatever stands there, the third is true.
+    pub fn pieces(&self, b: &SceneBox) -> Option<(Vec<RoofPiece>, Vec<u16>, bool)> {
         let cells = self.terraces.cells_of(b, 0.5 * self.terraces.cell_m);
         let labelled = cells.iter().filter(|cell| self.planes.labels[**cell] != NONE).count();
         if (labelled as f64) < LEAST_SHARE * cells.len() as f64 || labelled == 0 {
             return None;
         }
         let half = half_m(b);
-        let mut outlines = Vec::new();
-        self.part(b, Part { low: -half, high: half }, MOST_HALVINGS, &mut outlines);
+        let (mut outlines, whole) = (Vec::new(), Part { low: -half, high: half });
+        self.part(b, whole, MOST_HALVINGS, &mut outlines);
+        let mut labels: Vec<u16> = self.labels(b, whole, 0.0).into_iter().map(|(label, _)| label).collect();
+        labels.sort_unstable();
+        let mut goes_on = labels.len() < 3 && !labels.contains(&NONE);
         let [foot_m, top_m] = ends_m(b);
         let floor_m = foot_m.max(top_m - DEEPEST_M);
         let mut pieces = Vec::new();
@@ -65,10 +69,21 @@ impl Cutter<'_> {
             let level = Plane { rise: DVec2::ZERO, base_m: top_m };
             let Some(plane) = plane else {
                 self.add(&corners, &level, &level, &mut pieces);
+                goes_on = false;
                 continue;
             };
             let over = |limit_m: f64, sign: f64| move |at: DVec2| sign * (plane.at(at) - limit_m);
             let cut_off = clipped(&corners, over(top_m, 1.0));
+            if self.is_within(&cut_off, &plane) {
+                // The slope goes on within the boxes that stand on this one.
+                self.add(&clipped(&corners, over(floor_m, 1.0)), &plane, &plane, &mut pieces);
+                if floor_m > foot_m {
+                    let floor = Plane { base_m: floor_m, ..level };
+                    self.add(&clipped(&corners, over(floor_m, -1.0)), &floor, &plane, &mut pieces);
+                }
+                continue;
+            }
+            goes_on = false;
             if !self.is_hidden(&cut_off, top_m, &level) {
                 self.add(&cut_off, &level, &plane, &mut pieces);
             }
@@ -82,19 +97,30 @@ impl Cutter<'_> {
                 self.add(&clipped(&below, over(floor_m, -1.0)), &floor, &plane, &mut pieces);
             }
         }
-        Some(pieces)
+        Some((pieces, labels, goes_on))
     }
 
     /// Whether higher boxes stand over all of an outline on a surface.
     fn is_hidden(&self, outline: &[DVec2], top_m: f64, surface: &Plane) -> bool {
-        let is_below = |at: DVec2| {
-            let cell = self.terraces.cell_at(at);
-            cell.is_some_and(|cell| {
-                let most_m = surface.at(at) + STANDS_M;
-                let Terraces { tops_m, feet_m, .. } = self.terraces;
-                self.terraces.around(cell, 1).all(|near| tops_m[near] > top_m + STANDS_M && feet_m[near] < most_m)
-            })
-        };
+        let Terraces { tops_m, feet_m, .. } = self.terraces;
+        self.holds_on(outline, |at, cell| {
+            let most_m = surface.at(at) + STANDS_M;
+            self.terraces.around(cell, 1).all(|near| tops_m[near] > top_m + STANDS_M && feet_m[near] < most_m)
+        })
+    }
+
+    /// Whether a plane lies within the boxes all over an outline. It touches the feet of steps: half a cell beside them it may seem to stand out.
+    fn is_within(&self, outline: &[DVec2], plane: &Plane) -> bool {
+        let slack_m = 0.75 * self.terraces.cell_m * plane.rise.length();
+        self.holds_on(outline, |at, cell| {
+            let is_own = self.planes.planes.get(usize::from(self.planes.labels[cell])) == Some(plane);
+            is_own && self.terraces.tops_m[cell] > plane.at(at) - slack_m
+        })
+    }
+
+    /// Whether something holds at places all over an outline, in their cells.
+    fn holds_on(&self, outline: &[DVec2], holds: impl Fn(DVec2, usize) -> bool) -> bool {
+        let is_below = |at: DVec2| self.terraces.cell_at(at).is_some_and(|cell| holds(at, cell));
         let sides = (0..outline.len()).map(|k| [outline[k], outline[(k + 1) % outline.len()]]);
         let middle = outline.iter().copied().sum::<DVec2>() / outline.len().max(1) as f64;
         let mut rays = sides.flat_map(|[from, to]| {

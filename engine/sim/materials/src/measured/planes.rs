@@ -17,8 +17,6 @@ const RISES: [f64; 2] = [0.12, 4.0];
 const LEAST_M2: f64 = 3.5;
 /// Planes stand over a cell's top by less, metres, before they are lowered.
 const OVER_M: f64 = 0.1;
-/// Share of the feet of steps over which a plane may stand.
-const SHARE_OVER: f64 = 0.01;
 /// Cells beside each other whose planes differ by less are of one roof, metres.
 const JOINED_M: f64 = 0.5;
 
@@ -177,7 +175,7 @@ impl Planes {
     }
 
     /// Lays each plane through the feet of the steps over it, which are known exactly, and moves it down until it touches them from
-    /// below, but for a few.
+    /// below.
     fn lower(&mut self, terraces: &Terraces, boxes: &[SceneBox], members: &[usize]) {
         let mut feet: Vec<Vec<(DVec2, f64)>> = vec![Vec::new(); self.planes.len()];
         for (at, foot_m, cells) in members.iter().flat_map(|index| terraces.steps_of(&boxes[*index])) {
@@ -195,7 +193,7 @@ impl Planes {
             *plane = exact.filter(is_alike).unwrap_or(*plane);
             let mut under_m: Vec<f64> = feet.iter().map(|(at, foot_m)| foot_m - plane.at(*at)).collect();
             under_m.sort_by(f64::total_cmp);
-            plane.base_m += under_m[(SHARE_OVER * under_m.len() as f64) as usize];
+            plane.base_m += under_m[0];
         }
     }
 }

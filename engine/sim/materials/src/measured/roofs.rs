@@ -37,9 +37,36 @@ pub fn measured_roofs(boxes: &[SceneBox], steps: &mut [Option<RoofStep>]) {
         }
         let cutter = Cutter { terraces: &terraces, planes: &planes };
         let foot_m = members.iter().map(|index| ends_m(&boxes[*index])[0]).fold(f64::INFINITY, f64::min);
-        for &index in members {
-            steps[index] = step_of(&boxes[index], &cutter, foot_m);
+        let area = |index: usize| half_m(&boxes[index]).element_product();
+        let mut members = members.clone();
+        members.sort_by(|a, b| area(*b).total_cmp(&area(*a)).then(a.cmp(b)));
+        let mut slopes: Vec<Slopes<'_>> = Vec::new();
+        for index in members {
+            steps[index] = step_of(&boxes[index], &cutter, foot_m, &mut slopes);
         }
+    }
+}
+
+/// A box all over which the planes of its roof go on.
+struct Slopes<'a> {
+    b: &'a SceneBox,
+    planes: Vec<u16>,
+}
+
+impl Slopes<'_> {
+    /// Whether its slopes are those of another box, too.
+    fn hold(&self, other: &SceneBox, planes: &[u16]) -> bool {
+        let half = half_m(self.b) + 1e-6;
+        let axes = self.b.axes_in_world.map(|axis| axis.truncate());
+        let is_in = |corner: &DVec3| {
+            let away = (*corner - self.b.center_in_world).truncate();
+            away.dot(axes[0]).abs() <= half.x && away.dot(axes[1]).abs() <= half.y
+        };
+        let is_open = ends_m(other)[1] >= ends_m(self.b)[1];
+        is_open
+            && !planes.is_empty()
+            && planes.iter().all(|plane| self.planes.contains(plane))
+            && other.corners_in_world[..4].iter().all(is_in)
     }
 }
 
@@ -60,7 +87,13 @@ fn are_nested(boxes: &[SceneBox], members: &[usize]) -> bool {
     })
 }
 
-fn step_of(b: &SceneBox, cutter: &Cutter<'_>, foot_of_house_m: f64) -> Option<RoofStep> {
+/// The place of a box; `slopes` are those of larger boxes, which hold the slopes of smaller ones.
+fn step_of<'a>(
+    b: &'a SceneBox,
+    cutter: &Cutter<'_>,
+    foot_of_house_m: f64,
+    slopes: &mut Vec<Slopes<'a>>,
+) -> Option<RoofStep> {
     let [foot_m, top_m] = ends_m(b);
     let wall_m = |eaves_m: f64| [foot_of_house_m, (eaves_m - foot_of_house_m).max(0.0)];
     let step = |top: Option<TopSlope>, wall_m: [f64; 2], slope_m: f64, pieces: Option<Vec<RoofPiece>>| RoofStep {
@@ -70,7 +103,7 @@ fn step_of(b: &SceneBox, cutter: &Cutter<'_>, foot_of_house_m: f64) -> Option<Ro
         slope_m,
         pieces,
     };
-    let Some(pieces) = cutter.pieces(b) else {
+    let Some((mut pieces, planes, goes_on)) = cutter.pieces(b) else {
         let level = TopSlope { above_m: [0.0; 4], pitch: [0.0, 1.0], falls: Some(LEVEL_FALLS) };
         let is_small = cutter.planes.share > MOSTLY && 4.0 * half_m(b).element_product() < SMALL_M2;
         return Some(step(Some(level).filter(|_| is_small), wall_m(top_m), 0.0, None));
@@ -79,6 +112,11 @@ fn step_of(b: &SceneBox, cutter: &Cutter<'_>, foot_of_house_m: f64) -> Option<Ro
     let low_m = corners.map(|corner| corner.z).fold(top_m, f64::min);
     let eaves_m = cutter.eaves_m(b);
     let wall_top_m = low_m.min(eaves_m.max(foot_m));
+    if slopes.iter().any(|one| one.hold(b, &planes)) {
+        pieces.clear();
+    } else if goes_on {
+        slopes.push(Slopes { b, planes });
+    }
     Some(step(None, wall_m(eaves_m), top_m - wall_top_m, Some(pieces)))
 }
 
