@@ -58,7 +58,7 @@ const ASIDE_M: f32 = 1.2;
 const PER_M: f32 = 20.0;
 
 /// How much finer clumps are on crowns of several lobes.
-const FINE: f32 = 1.7;
+const FINE: f32 = 1.4;
 
 /// How much darker lobes are on their inner sides.
 const INWARD: f32 = 0.4;
@@ -338,7 +338,7 @@ fn look(point: &SurfacePoint, crown: &OnMap, noise: &NoiseTexture) -> (Look, Vec
     let open = bare * share((small.abs() - 0.01) / (0.10 + 0.40 * least(size * per_m * fine, 1.0)));
     let small = small * crown.through;
     // Every clump of leaves faces its own way, and leaves of it theirs.
-    let aside = 1.3 * small;
+    let aside = 0.8 * small;
     let turn = Vec3::new(aside - big, aside + big - bough, bough + 0.5 * big);
     let bent = (out + turn * 2.4).lerp(Vec3::new(0.0, 0.0, 1.0), 0.3 * bare);
     let deep = smoothstep(-0.62, 0.66, 1.6 * bough + 1.3 * big + 1.6 * small);
