@@ -24,8 +24,10 @@ const REACH_SHARE: f32 = 0.4;
 const BEHIND_M: f32 = 0.3;
 /// Pixels that gaps reach at most.
 const MOST_PX: f32 = 20.0;
-/// Edges before other leaves of the same tree are broken where gaps reach this far, pixels.
+/// Edges before other leaves of the same tree are broken where gaps reach this far, pixels; they reach that
+/// far at most.
 const LEAST_WITHIN_PX: f32 = 4.0;
+const MOST_WITHIN_PX: f32 = 8.0;
 /// Reach of crowns without leaves, metres.
 const BARE_REACH_M: f32 = 1.2;
 const BARE_REACH_SHARE: f32 = 0.5;
@@ -210,10 +212,12 @@ impl Picture<'_> {
         let pixel_m = self.view.pixel() * depth;
         let (most_px, thin) = if span.is_bare { (MOST_BARE_PX, BARE_THIN) } else { (MOST_PX, THIN) };
         let reach = (span.reach_m / pixel_m).min(most_px);
-        // Small clumps before others of their tree.
-        if reach < LEAST_WITHIN_PX && instance[outside] == span.instance {
+        // Small clumps before others of their tree; gaps of large ones would mirror whole boughs.
+        let is_within = instance[outside] == span.instance;
+        if reach < LEAST_WITHIN_PX && is_within {
             return;
         }
+        let reach = if is_within { reach.min(MOST_WITHIN_PX) } else { reach };
         let count = (reach as usize).min(most).min(beyond);
         let shift = 97.0 * unit(hash(span.instance, 12));
         for k in 0..count {
