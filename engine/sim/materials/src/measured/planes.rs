@@ -36,6 +36,9 @@ impl Plane {
     }
 }
 
+/// A plane, and how far the cells around lie off it, metres.
+type OwnPlane = (Plane, f64);
+
 /// Planes of a roof.
 pub struct Planes {
     /// The planes.
@@ -102,7 +105,8 @@ impl Planes {
             (plane, members) = grown(terraces, (&heights_m, &own), &labels, members[members.len() / 2], plane);
             members.iter().for_each(|cell| tried[*cell] = true);
             let rise = plane.rise.length();
-            if members.len() as f64 * terraces.cell_m * terraces.cell_m < LEAST_M2 || rise < RISES[0] || rise > RISES[1]
+            if members.len() as f64 * terraces.cell_m * terraces.cell_m < LEAST_M2
+                || !(RISES[0]..=RISES[1]).contains(&rise)
             {
                 continue;
             }
@@ -199,7 +203,7 @@ impl Planes {
 }
 
 /// The plane of each cell's surroundings, and how far they lie off it, metres.
-fn own_planes(terraces: &Terraces, heights_m: &[f64]) -> Vec<Option<(Plane, f64)>> {
+fn own_planes(terraces: &Terraces, heights_m: &[f64]) -> Vec<Option<OwnPlane>> {
     let own = |cell: usize| {
         if heights_m[cell].is_nan() {
             return None;
@@ -219,7 +223,7 @@ fn own_planes(terraces: &Terraces, heights_m: &[f64]) -> Vec<Option<(Plane, f64)
 /// The cells that hang together with a seed and lie on its plane, and the plane through them.
 fn grown(
     terraces: &Terraces,
-    (heights_m, own): (&[f64], &[Option<(Plane, f64)>]),
+    (heights_m, own): (&[f64], &[Option<OwnPlane>]),
     labels: &[u16],
     seed: usize,
     mut plane: Plane,

@@ -65,7 +65,7 @@ impl Terraces {
         let narrow_m = members.iter().map(|index| half_m(&boxes[*index]).min_element()).fold(f64::INFINITY, f64::min);
         let cell_m = (wide.max_element() / ENOUGH).max(narrow_m).clamp(CELL_M[0], CELL_M[1]);
         let size = (wide / cell_m).ceil() + 2.0;
-        if !(size.element_product() <= MOST_CELLS) {
+        if !size.is_finite() || size.element_product() > MOST_CELLS {
             return None;
         }
         let size = [size.x as usize, size.y as usize];
