@@ -66,10 +66,10 @@ const KINDS: [Kind; 4] = [
         stone_m: [0.12, 0.11],
         bond: 0.5,
         rise_m: 0.24,
-        colour: [0.215, 0.197, 0.18],
+        colour: [0.265, 0.243, 0.222],
         spread: 0.5,
         bands_m: [FAR_M, 5.4],
-        band: [0.155, 0.15, 0.145],
+        band: [0.19, 0.184, 0.178],
     },
 ];
 /// Width of bands, and of drains beside every third one, metres.
