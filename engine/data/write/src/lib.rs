@@ -16,6 +16,7 @@ pub mod log;
 mod message_head;
 pub mod publish;
 pub mod table_file;
+mod unread;
 
 pub use clothes::check_clothes;
 pub use frame_pack::{FramePackReader, FramePackWriter, PackHeader, PackedFrame};
@@ -24,3 +25,4 @@ pub use publish::{
     DatasetSource, FlightNote, GroupFlights, GroupName, GroupPlan, GroupSource, PublishedLog, Shard, Shards, Summary,
     nothing_left, plan_groups, write_dataset, write_shard,
 };
+pub use unread::unread;

@@ -2,7 +2,7 @@
 
 use crate::ports::EXTRAS;
 use crate::rejections::handed_on;
-use crate::sense::{flight_ports, is_read, people, put};
+use crate::sense::{flight_ports, people, put};
 use crate::single;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
@@ -23,6 +23,7 @@ use cosfly_sensors::lidar::{
 };
 use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart};
 use cosfly_stage::{StageProperties, StageRole, TaskContext, parameters};
+use cosfly_write::unread;
 
 /// Meaning of a lidar that is no device of the list.
 const OWN_DOC: &str = "Lidar with a pattern of the recipe.";
@@ -90,8 +91,8 @@ impl Stage for ScanStage {
             return Ok(rejected);
         }
         let record = RenderedTrajectory::from_bytes(&inputs.read(frames, "index")?)?;
-        if !is_read(self.config.camera.as_deref(), &record) {
-            return put(outputs, &self.source, SweepRows::default().into_values());
+        if let Some(values) = unread(&record, self.config.camera.as_deref(), &self.source) {
+            return put(outputs, &self.source, values);
         }
         let world = world(inputs)?;
         let town = inputs.one("town")?.blobs[artifacts::TOWN.blob].digest;
@@ -123,9 +124,8 @@ impl Stage for ScanStage {
         };
         let (sweeps, beams) = (flight.sweeps(), flight.beams(&self.pattern));
         if beams > MOST_BEAMS || sweeps > MOST_ROWS {
-            let message = format!(
-                "a flight would have {sweeps} sweeps and {beams} beams of a lidar; {MOST_ROWS} and {MOST_BEAMS} are allowed"
-            );
+            let message =
+                format!("a flight would have {sweeps} sweeps, {beams} beams; {MOST_ROWS}, {MOST_BEAMS} are allowed");
             let hint = "choose a device with fewer shots or sweeps a second, or shorter walks";
             return Err(Diagnostic::new("sense-readings", Fault::Recipe, message).hint(hint));
         }

@@ -16,11 +16,12 @@ use cosfly_frames::Seed;
 use cosfly_schema::RenderedTrajectory;
 use cosfly_schema::extras::{Extra, ExtraSource, check_names};
 use cosfly_schema::flight_table::{ColumnKind, DeclaredColumn, MOST_ROWS, Values};
-use cosfly_sensors::{Carrier, GeoOrigin, Reading, SenseConfig, SensedFlight, Sensor};
+use cosfly_sensors::{Carrier, GeoOrigin, SenseConfig, SensedFlight, Sensor};
 use cosfly_stage::parameters;
 use cosfly_stage::{
     InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, StageRole, Takes, TaskContext,
 };
+use cosfly_write::unread;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Blob with readings, for logs: that of [`EXTRA`] once more.
@@ -51,8 +52,7 @@ impl StageKind for Sense {
         let unknown = || parameters::refused_at("sensor", format!("there is no sensor `{}`", config.sensor));
         let sensor = config.sensor().ok_or_else(unknown)?;
         if config.levelled && sensor.carrier == Carrier::Airframe {
-            let message =
-                format!("`{}` is fixed to the airframe: nothing holds it level; leave the key out", sensor.name);
+            let message = format!("`{}` is fixed to the airframe, which tilts: leave the key out", sensor.name);
             return Err(parameters::refused_at("levelled", message));
         }
         let source = source_of(sensor, &config);
@@ -77,11 +77,9 @@ impl StageKind for Sense {
 pub fn flight_ports() -> Vec<InputPort> {
     let doc = "The rendered flights, one item each, of one stage or of several.";
     let others = "People and vehicles who are met: the stages that the pictures show; nobody else, when left out.";
-    vec![
-        ports::town(),
-        ports::without_pictures(InputPort { takes: Takes::Distinct, ..ports::each("frames", FRAMES, false, doc) }),
-        InputPort { optional: true, ..ports::gather("others", WALK, true, others) },
-    ]
+    let frames = InputPort { takes: Takes::Distinct, ..ports::each("frames", FRAMES, false, doc) };
+    let others = InputPort { optional: true, ..ports::gather("others", WALK, true, others) };
+    vec![ports::town(), ports::without_pictures(frames), others]
 }
 
 /// The table of a sensor: frame and time, then its numbers and the true ones.
@@ -115,32 +113,11 @@ impl Stage for SenseStage {
             return Ok(rejected);
         }
         let record = RenderedTrajectory::from_bytes(&inputs.read(frames, "index")?)?;
-        let (mut at, mut times_s) = (vec![], vec![]);
-        let mut numbers = vec![vec![]; self.sensor.count()];
-        if is_read(self.config.camera.as_deref(), &record) {
-            self.flown(inputs, &record, context, &mut |reading| {
-                at.push(reading.frame as i64);
-                times_s.push(record.times().s(0) + reading.time_s);
-                numbers.iter_mut().zip(reading.values).for_each(|(column, value)| column.push(*value));
-            })?;
+        if let Some(values) = unread(&record, self.config.camera.as_deref(), &self.source) {
+            return put(outputs, &self.source, values);
         }
-        let mut values = vec![Values::Integers(at), Values::Reals(times_s)];
-        values.extend(numbers.into_iter().map(Values::Reals));
-        put(outputs, &self.source, values)
-    }
-}
-
-impl SenseStage {
-    /// Gives the readings along the flight of a film.
-    fn flown(
-        &self,
-        inputs: &Inputs<'_>,
-        record: &RenderedTrajectory,
-        context: &TaskContext,
-        visit: &mut dyn FnMut(Reading<'_>),
-    ) -> Result<()> {
         let world = world(inputs)?;
-        let people = people(inputs, &world, record)?;
+        let people = people(inputs, &world, &record)?;
         let flown = SensedFlight {
             town: &world.exact,
             ground: &world.ground,
@@ -156,23 +133,25 @@ impl SenseStage {
             let message = format!("a flight would have {} readings; {MOST_ROWS} are allowed", flown.readings());
             return Err(Diagnostic::new("sense-readings", Fault::Recipe, message).hint("set a lower `rate_hz`"));
         }
-        flown.read(self.sensor, visit);
-        Ok(())
+        let (mut at, mut times_s) = (vec![], vec![]);
+        let mut numbers = vec![vec![]; self.sensor.count()];
+        flown.read(self.sensor, &mut |reading| {
+            at.push(reading.frame as i64);
+            times_s.push(record.times().s(0) + reading.time_s);
+            numbers.iter_mut().zip(reading.values).for_each(|(column, value)| column.push(*value));
+        });
+        let mut values = vec![Values::Integers(at), Values::Reals(times_s)];
+        values.extend(numbers.into_iter().map(Values::Reals));
+        put(outputs, &self.source, values)
     }
-}
-
-/// Whether a sensor with this key `camera` reads along a film.
-pub fn is_read(camera: Option<&str>, record: &RenderedTrajectory) -> bool {
-    camera.is_none_or(|camera| record.camera_name.as_deref() == Some(camera))
 }
 
 /// Writes what a sensor read along a film, for tables and for logs.
 pub fn put(outputs: &mut dyn OutputSink, source: &ExtraSource, values: Vec<Values>) -> Result<Produced> {
-    let rows = values.first().map_or(0, Values::len);
+    let notes = BTreeMap::from([("rows".to_owned(), values.first().map_or(0, Values::len).to_string())]);
     let extra = codec::encode(EXTRAS, &Extra { source: source.clone(), values })?;
-    outputs.put(EXTRA, &extra)?;
-    outputs.put(READINGS, &extra)?;
-    Ok(Produced { notes: BTreeMap::from([("rows".to_owned(), rows.to_string())]), ..Produced::default() })
+    [EXTRA, READINGS].into_iter().try_for_each(|name| outputs.put(name, &extra))?;
+    Ok(Produced { notes, ..Produced::default() })
 }
 
 /// Everybody whom sensors may meet, with instance ids as in pictures: those at port `others` who are in the pictures or nobody's way, the

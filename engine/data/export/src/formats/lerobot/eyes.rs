@@ -1,10 +1,14 @@
 //! The cameras of an episode: films of one flight that have the same moments are one episode, with a feature for each camera.
 
-use super::tables::{DEPTH, PICTURE};
 use crate::films::Films;
 use crate::source::Source;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_read::PublishedFlight;
+
+/// Name of the pictures' feature.
+const PICTURE: &str = "observation.images.rgb";
+/// Name of the feature of depth.
+const DEPTH: &str = "observation.images.depth";
 
 /// A camera of all episodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

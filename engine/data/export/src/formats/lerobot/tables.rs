@@ -8,10 +8,6 @@ use cosfly_schema::tables::{AnyColumn, CellProblem, Column, ImageFile, Kind, Tab
 use serde_json::json;
 use std::sync::Arc;
 
-/// Name of the pictures' feature.
-pub const PICTURE: &str = "observation.images.rgb";
-/// Name of the feature of depth.
-pub const DEPTH: &str = "observation.images.depth";
 /// Names of the features that are vectors, and of their parts. Policies take all features whose names begin with
 /// `observation` as inputs, so that names of what a drone does not know begin with `privileged`.
 pub const VECTORS: [(&str, &[&str]); 5] = [
