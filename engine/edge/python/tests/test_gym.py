@@ -369,6 +369,9 @@ def test_options_of_a_reset_are_named():
     name = one.unwrapped.episodes()[0]
     assert one.reset(options={"episode": name})[1]["episode"] == name
     one.reset(options={}), many.reset(options={})
+    for environment in (one, many):  # LeRobot gives a key of its own
+        with pytest.warns(UserWarning, match="has no key 'lerobot_new_rollout', which does nothing"):
+            environment.reset(options={"lerobot_new_rollout": True})
     with pytest.raises(cosfly.WrongType, match="it is a name, such as"):
         one.reset(options={"episode": 3})
     with pytest.raises(cosfly.InvalidValue, match=f"no episode 'nobody'; there are {name}"):

@@ -188,7 +188,8 @@ class TrackVector(VectorEnv):
     def reset(
         self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Any, dict[str, Any]]:
-        chosen = self._chosen(keys_of("`options` of many environments", options, ("reset_mask",)).get("reset_mask"))
+        is_single = "episode" in (options or {})  # of one environment: many take none
+        chosen = self._chosen(keys_of("`options` of many environments", options, ("reset_mask",), not is_single).get("reset_mask"))
         seeds: list[int | None]
         if seed is None:
             seeds = [None] * self.num_envs
@@ -280,7 +281,8 @@ class Track(gymnasium.Env):
         self._streams, self._is_reset = _Streams(1), False
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        episode = keys_of("`options`", options, ("episode",)).get("episode")
+        # Harnesses give keys of their own, as LeRobot does.
+        episode = keys_of("`options`", options, ("episode",), strangers=True).get("episode")
         super().reset(seed=seed)
         # `np_random` that was used before has drawn a seed already.
         known = self._np_random_seed
