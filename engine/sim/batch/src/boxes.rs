@@ -116,12 +116,22 @@ fn around<'a>(corners: impl Iterator<Item = &'a DVec3>, axis: DVec3) -> Bounds {
     Bounds { center_in_world, half_m: 0.5 * (high - low), axis: [axis.x, axis.y] }
 }
 
+/// Whether faces are those of a box that stands: upright sides at right angles, a level top.
+fn is_upright_box(faces: &[SceneFace]) -> bool {
+    let normal = |number: usize| faces[number].normal_in_world;
+    let is_upright = (0..4).all(|side| normal(side).z == 0.0) && normal(5).z > 1.0 - 1e-12;
+    let is_square = normal(0).dot(normal(1)) < -1.0 + 1e-9 && normal(0).dot(normal(2)).abs() < 1e-6;
+    is_upright && is_square && normal(2).dot(normal(3)) < -1.0 + 1e-9
+}
+
 impl SolidBox {
     fn of(first_face: u32, faces: &[SceneFace], slopes: &mut Vec<Slopes>) -> Self {
         // Faces 0 and 1 look along the box's x axis, 2 and 3 along y, 4 and 5 along z.
         let (low, high) = (&faces[4].corners_in_world, &faces[5].corners_in_world);
-        let is_cut = faces[..4].iter().any(|face| face.normal_in_world.z != 0.0);
-        let axis = faces[1].normal_in_world.with_z(0.0);
+        let is_cut = !is_upright_box(faces);
+        // Sides of pieces of roofs may have no length, and no normal.
+        let mut sides = [1, 0, 2, 3].iter().map(|side| faces[*side].normal_in_world.with_z(0.0));
+        let axis = sides.find(|axis| axis.length_squared() > 1e-6).unwrap_or(DVec3::X);
         let axis = if is_cut { axis.normalize() } else { axis };
         let bounds = if is_cut { around(low.iter().chain(high), axis) } else { upright(low, high[0].z, axis) };
         Self {

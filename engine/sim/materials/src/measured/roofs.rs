@@ -140,9 +140,15 @@ pub fn box_of(b: &SceneBox, piece: &RoofPiece, foot_m: f64, wall_m: [f64; 2]) ->
     };
     let half = DVec2::new(reach(part.axes_in_world[0]), reach(part.axes_in_world[1]));
     part.half_extents_m = half.extend(part.half_bounds_m.z.min(half.max_element())).as_vec3a();
-    for (face, [from, to]) in [(2, [0, 1]), (1, [1, 3]), (3, [3, 2]), (0, [2, 0])] {
+    let around = [(2, [0, 1]), (1, [1, 3]), (3, [3, 2]), (0, [2, 0])];
+    let outs = around.map(|(_, [from, to])| {
         let along = (part.corners_in_world[to] - part.corners_in_world[from]).truncate();
-        let out = DVec2::new(along.y, -along.x).normalize_or(DVec2::X);
+        DVec2::new(along.y, -along.x).normalize_or_zero()
+    });
+    for (at, (face, _)) in around.into_iter().enumerate() {
+        // A side without a length looks between those beside it: its plane touches the part, and cuts nothing off.
+        let between = outs[(at + 1) % 4] + outs[(at + 3) % 4];
+        let out = if outs[at] == DVec2::ZERO { between.normalize_or(DVec2::X) } else { outs[at] };
         part.sides_in_world[face] = out.extend(0.0);
     }
     part.top_in_world = piece.normal_in_world;
