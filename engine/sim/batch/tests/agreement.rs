@@ -157,9 +157,8 @@ fn sloped_towns_are_as_in_large_pictures() {
 #[test]
 fn boxes_are_where_rays_in_full_precision_hit_them() {
     let mut town = towns::shipped("downtown.xodr");
-    // Benches, shelters and crowns are drawn of parts and lobes within their boxes.
-    let is_drawn_within = |kind| matches!(kind, ObstacleKind::Bench | ObstacleKind::Static | ObstacleKind::TreeCrown);
-    town.obstacles.retain(|one| !is_drawn_within(one.kind));
+    // Benches and shelters are drawn of parts within their boxes.
+    town.obstacles.retain(|one| !matches!(one.kind, ObstacleKind::Bench | ObstacleKind::Static));
     let batch = BatchScene::new(&town, Seed([1; 32]));
     let tree = BoxBvh::build(town.obstacles.iter().map(|obstacle| obstacle.shape).collect());
     let (mut compared, mut wrong) = (0, 0);

@@ -51,7 +51,7 @@ impl Growth {
         // Mowers turn at each track: every second one is lighter. They leave out where grass is dry.
         let across = (x * ACROSS[0] + y * ACROSS[1]) * TRACKS_PER_M;
         let track = stripes(across, 0.0, 0.5, 3.0 * size * TRACKS_PER_M) - 0.5;
-        let clover = smoothstep(0.53, 0.58, 0.62 * (1.0 - dry) + 0.38 * tuft) * (1.0 - litter);
+        let clover = smoothstep(0.53, 0.58, 0.62 * (1.0 - dry) + 0.38 * tuft);
         Self {
             fresh: fresh.lerp(CLOVER, 0.5 * clover),
             straw: fresh.lerp(straw, 0.65).lerp(LITTER, 0.8 * litter),
@@ -92,7 +92,7 @@ pub fn lawns(
             has_wall |= u32::from(wall_m < APRON_M + 2.0 * middle.footprint_m);
             // Houses take light from the ground, too, and have no leaves.
             let away = smoothstep(0.5 * FAR_FROM_WALLS_M, FAR_FROM_WALLS_M, wall_m);
-            let litter = away * (1.0 - smoothstep(0.15, 0.52, place.sky(tables)));
+            let litter = away * (1.0 - smoothstep(0.2, 0.6, place.sky(tables)));
             let growth = Growth::at([x, y], middle.footprint_m, litter, colours, noise);
             (dry[k], tuft[k], clover[k]) = (growth.dry, growth.tuft, growth.clover);
             (light[k], far[k]) = (growth.light, growth.far);

@@ -42,8 +42,6 @@ const AUTUMN: [[f32; 3]; 10] = [
     [0.360, 0.260, 0.050],
     [0.190, 0.085, 0.035],
 ];
-/// Needles of conifers, linear RGB.
-const CONIFER: Vec3 = Vec3::new(0.036, 0.064, 0.034);
 /// Size of the round crown as a share of half the size of the box around the whole crown.
 const ROUND: f32 = 1.118_034;
 /// Species whose leaves stay green: olives.
@@ -56,12 +54,6 @@ const ASIDE_M: f32 = 1.2;
 
 /// Texels of clumps per metre.
 const PER_M: f32 = 20.0;
-
-/// How much finer clumps are on crowns of several lobes.
-const FINE: f32 = 1.4;
-
-/// How much darker lobes are on their inner sides.
-const INWARD: f32 = 0.4;
 
 /// Frequency of boughs, in frequencies of clumps.
 const BOUGHS: f32 = 0.36;
@@ -81,14 +73,11 @@ pub struct Leaves {
     middle: Vec3,
     half: Vec3,
     shrink: Vec3,
-    /// Where a lobe lies in the whole crown, from its middle, as a share of half its size.
-    aside: Vec3,
     tint: Vec3,
     /// Light that shines through its leaves, as a share of that of green ones.
     through: f32,
-    /// Where its patterns begin, and how fine they are.
+    /// Where its patterns begin.
     shift: f32,
-    fine: f32,
 }
 
 impl Leaves {
@@ -97,24 +86,18 @@ impl Leaves {
         if !matches!(b.kind, ObstacleKind::TreeCrown | ObstacleKind::Bush) {
             return None;
         }
-        let round = b.lobe.map_or(b.whole, |lobe| [lobe.middle, lobe.half]);
-        let [middle, half] = round.map(|v| Vec3::new(v.x, v.y, v.z));
+        let [middle, half] = b.whole.map(|v| Vec3::new(v.x, v.y, v.z));
         let (seed, common) = (b.seed, SPECIES.len() - 1);
         // The last species is rare.
         let species = if draw(seed, 8) < 0.015 { common } else { (draw(seed, 7) * common as f32) as usize % common };
         let [green, late] = [SPECIES, AUTUMN].map(|leaves| leaves[species]).map(|[r, g, b]| Vec3::new(r, g, b));
-        let is_conifer = b.lobe.is_some_and(|lobe| lobe.is_conifer);
-        let green = if is_conifer { CONIFER } else { green };
-        let is_evergreen =
-            is_conifer || species == EVERGREEN || (b.kind == ObstacleKind::Bush && draw(seed, 11) < EVERGREEN_BUSHES);
+        let is_evergreen = species == EVERGREEN || (b.kind == ObstacleKind::Bush && draw(seed, 11) < EVERGREEN_BUSHES);
         let look = season::row(season);
         let is_bare = look.is_bare && !is_evergreen;
-        // Shrubs of a hedge and lobes of a crown share a seed, and differ.
-        let place =
-            if b.kind == ObstacleKind::Bush || b.lobe.is_some() { middle.x.to_bits() ^ middle.y.to_bits() } else { 0 };
+        // Shrubs of a hedge share a seed, and differ.
+        let place = if b.kind == ObstacleKind::Bush { middle.x.to_bits() ^ middle.y.to_bits() } else { 0 };
         let leaves = match look.turned {
             _ if is_bare => twigs(seed),
-            _ if is_conifer => green,
             // Trees of a town turn one after the other.
             Some([slope, offset]) => green.lerp(late, share(slope * draw(seed, 9) + offset)),
             None => green * look.leaf,
@@ -123,11 +106,9 @@ impl Leaves {
             middle,
             half,
             shrink: half.map(|half| 1.0 / half.max(0.1)),
-            aside: b.lobe.map_or(Vec3::ZERO, |lobe| Vec3::new(lobe.aside.x, lobe.aside.y, lobe.aside.z)),
-            tint: leaves * ((0.8 + 0.45 * draw(seed, 1)) * b.lobe.map_or(1.0, |lobe| lobe.light)),
+            tint: leaves * (0.8 + 0.45 * draw(seed, 1)),
             through: if is_bare { 0.0 } else { 1.0 },
             shift: 37.0 * unit(if place == 0 { seed } else { hash(seed, place) }),
-            fine: if b.lobe.is_some() { FINE } else { 1.0 },
         })
     }
 
@@ -139,11 +120,6 @@ impl Leaves {
     /// The round crown.
     pub fn outline(&self) -> LeafCrown {
         LeafCrown { middle: self.middle, shrink: self.shrink }
-    }
-
-    /// How much finer its patterns are than those of a crown of one piece.
-    pub fn fine(&self) -> f32 {
-        self.fine
     }
 
     /// Half the lesser width of the crown, metres.
@@ -176,11 +152,9 @@ pub struct Crowns {
     middle: [StageRow; 3],
     half: [StageRow; 3],
     shrink: [StageRow; 3],
-    aside: [StageRow; 3],
     tint: [StageRow; 3],
     through: StageRow,
     shift: StageRow,
-    fine: StageRow,
 }
 
 impl Crowns {
@@ -189,11 +163,9 @@ impl Crowns {
         middle: [EMPTY_ROW; 3],
         half: [EMPTY_ROW; 3],
         shrink: [EMPTY_ROW; 3],
-        aside: [EMPTY_ROW; 3],
         tint: [EMPTY_ROW; 3],
         through: EMPTY_ROW,
         shift: EMPTY_ROW,
-        fine: EMPTY_ROW,
     };
 
     #[inline(always)]
@@ -211,11 +183,9 @@ simd_kernel! {
             write_three(&mut crowns.middle, at, look.middle);
             write_three(&mut crowns.half, at, look.half);
             write_three(&mut crowns.shrink, at, look.shrink);
-            write_three(&mut crowns.aside, at, look.aside);
             write_three(&mut crowns.tint, at, look.tint);
             write_row(&mut crowns.through, at, look.through);
             write_row(&mut crowns.shift, at, look.shift);
-            write_row(&mut crowns.fine, at, look.fine);
         }
     }
 }
@@ -283,13 +253,11 @@ simd_kernel! {
         noise: &NoiseTexture,
     ) {
         for (group, (shared, four)) in groups(shared, blocks).enumerate() {
-            let rows = [&crowns.shift, &crowns.through, &crowns.fine];
-            let [shifts, throughs, fines] = rows.map(|row| PendingFours::lane(row, group));
+            let [shifts, throughs] = [&crowns.shift, &crowns.through].map(|row| PendingFours::lane(row, group));
             for block in four {
                 for k in 0..WIDE {
-                    let rows = [&crowns.middle, &crowns.aside, &crowns.tint];
-                    let [middle, aside, tint] = rows.map(|rows| three_of(rows, group, k));
-                    let crown = OnMap { middle, aside, tint, through: throughs[k], shift: shifts[k], fine: fines[k] };
+                    let [middle, tint] = [&crowns.middle, &crowns.tint].map(|rows| three_of(rows, group, k));
+                    let crown = OnMap { middle, tint, through: throughs[k], shift: shifts[k] };
                     let point = block.point(shared, k);
                     let (look, aside) = look(&point, &crown, noise);
                     block.put_bent(k, &look);
@@ -323,31 +291,28 @@ simd_kernel! {
 fn look(point: &SurfacePoint, crown: &OnMap, noise: &NoiseTexture) -> (Look, Vec3) {
     let out = point.normal;
     let size = point.footprint_m;
-    let per_m = PER_M * crown.fine;
-    let place = (point.world - crown.middle) * per_m;
-    let (near, far) = (NoiseLevel::of(size * per_m), NoiseLevel::of(size * per_m * BOUGHS));
+    let place = (point.world - crown.middle) * PER_M;
+    let (near, far) = (NoiseLevel::of(size * PER_M), NoiseLevel::of(size * PER_M * BOUGHS));
     let big = clumps(along(place, 1.0, 0.0), crown.shift, near, noise);
+    let aside = clumps(along(place, -0.5, 0.866), crown.shift, near, noise);
     // Boughs: clumps of clumps, with deep shade between them.
-    let bough = clumps(along(place * BOUGHS, -0.5, 0.866), crown.shift, far, noise);
+    let bough = clumps(along(place * BOUGHS, -0.5, -0.866), crown.shift, far, noise);
     let fine = lerp(0.85, 0.55, crown.through);
     let (u, v) = facing(place, out);
-    let small = noise.grain(u * fine, v * fine, size * per_m * fine) - 0.5;
+    let small = noise.grain(u * fine, v * fine, size * PER_M * fine) - 0.5;
     // Twigs are lines, level sets of the same noise, with what lies below the crown between them; they fade where a
     // pixel is as large as a texel.
     let bare = 1.0 - crown.through;
-    let open = bare * share((small.abs() - 0.01) / (0.10 + 0.40 * least(size * per_m * fine, 1.0)));
+    let open = bare * share((small.abs() - 0.01) / (0.10 + 0.40 * least(size * PER_M * fine, 1.0)));
     let small = small * crown.through;
-    // Every clump of leaves faces its own way, and leaves of it theirs.
-    let aside = 0.8 * small;
+    // Every clump of leaves faces its own way.
     let turn = Vec3::new(aside - big, aside + big - bough, bough + 0.5 * big);
     let bent = (out + turn * 2.4).lerp(Vec3::new(0.0, 0.0, 1.0), 0.3 * bare);
     let deep = smoothstep(-0.62, 0.66, 1.6 * bough + 1.3 * big + 1.6 * small);
     // Light shines through leaves at the rim of a clump: they are yellower there.
     let through = Vec3::new(1.9, 1.45, 1.1) * crown.through + Vec3::splat(0.6 * bare);
     let tint = crown.tint.lerp(crown.tint * through, 0.5 * (small + 0.5) * deep);
-    // What of a lobe looks into the crown is dark.
-    let inward = 1.0 + INWARD * (out.dot(crown.aside) - 0.6 * crown.aside.dot(crown.aside));
-    let tint = (tint * ((0.50 + 0.90 * deep) * inward)).lerp(BELOW, open * (0.5 + 0.25 * deep));
+    let tint = (tint * (0.50 + 0.90 * deep)).lerp(BELOW, open * (0.5 + 0.25 * deep));
     // Darker below, where the crown shades itself.
     let shade = 0.5 + 0.5 * smoothstep(-1.0, 0.6, out.z + bare);
     let openness = lerp((0.42 + 0.68 * deep) * shade, 0.85, 0.5 * open);
@@ -357,11 +322,9 @@ fn look(point: &SurfacePoint, crown: &OnMap, noise: &NoiseTexture) -> (Look, Vec
 /// A crown as its patterns know it.
 struct OnMap {
     middle: Vec3,
-    aside: Vec3,
     tint: Vec3,
     through: f32,
     shift: f32,
-    fine: f32,
 }
 
 /// Where a place lies seen along a way that leans from upright to a horizontal direction. Directions are a third of a turn
@@ -393,14 +356,7 @@ mod tests {
     #[test]
     fn leaves_have_no_streaks_on_any_side() {
         let noise = noise_texture(5);
-        let crown = OnMap {
-            middle: Vec3::ZERO,
-            aside: Vec3::ZERO,
-            tint: Vec3::splat(0.1),
-            through: 1.0,
-            shift: 3.0,
-            fine: 1.0,
-        };
+        let crown = OnMap { middle: Vec3::splat(0.0), tint: Vec3::splat(0.1), through: 1.0, shift: 3.0 };
         let openness = |world: Vec3, normal: Vec3| {
             let point = SurfacePoint { world, normal, footprint_m: 0.02, footprints_m: [0.02; 2] };
             look(&point, &crown, &noise).0.openness

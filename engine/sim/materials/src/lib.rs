@@ -12,7 +12,6 @@ mod boats;
 pub mod building_form;
 pub mod building_forms;
 mod containers;
-mod crown_lobes;
 pub mod drawn_shapes;
 pub mod dry_days;
 pub mod facade;

@@ -39,8 +39,6 @@ pub struct SceneBox {
     pub town: u32,
     /// Middle and half size of the whole crown or building that the box belongs to; of the box itself for other kinds.
     pub whole: [Vec3; 2],
-    /// The clump of leaves that it draws of a crown with several; none for most boxes.
-    pub lobe: Option<Lobe>,
     /// Form of the building that it belongs to.
     pub form: BuildingForm,
     /// What the part of a thing is.
@@ -51,21 +49,6 @@ pub struct SceneBox {
     pub roof: Option<Box<RoofStep>>,
     /// Sides, in the order of the faces, on which the flat roof of a building goes on over another box, or ends at a wall.
     pub roof_goes_on: [bool; 4],
-}
-
-/// A clump of leaves of a crown.
-#[derive(Clone, Copy, Debug)]
-pub struct Lobe {
-    /// Middle of the round clump, metres.
-    pub middle: Vec3,
-    /// Half its size, metres.
-    pub half: Vec3,
-    /// Where it lies in the whole crown, from its middle, as a share of half its size.
-    pub aside: Vec3,
-    /// Light of the sky that reaches it, as a share of that of the top of the crown.
-    pub light: f32,
-    /// Whether it is a tier of a conifer.
-    pub is_conifer: bool,
 }
 
 /// A box's six faces: outward axis (0 x, 1 y, 2 z), its sign, and the corner numbers around it.
@@ -86,22 +69,6 @@ impl SceneBox {
             0..4 => self.sides_in_world[face],
             4 => -DVec3::Z,
             _ => self.top_in_world,
-        }
-    }
-
-    /// Works out middle, sizes, axes and normals from corners that make flat faces, level below and above.
-    pub(crate) fn fit_to_corners(&mut self) {
-        let corners = self.corners_in_world;
-        let (least, most) = corners.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(least, most), corner| {
-            (least.min(*corner), most.max(*corner))
-        });
-        (self.center_in_world, self.half_bounds_m) = (0.5 * (least + most), 0.5 * (most - least));
-        self.half_extents_m.z = self.half_bounds_m.z as f32;
-        self.axes_in_world = [[0, 1], [0, 2]].map(|[from, to]: [usize; 2]| (corners[to] - corners[from]).normalize());
-        for (face, side) in self.sides_in_world.iter_mut().enumerate() {
-            let [a, b, c, _] = BOX_FACES[face].2.map(|corner| corners[corner]);
-            let normal = (b - a).cross(c - b).normalize();
-            *side = normal * normal.dot(a - self.center_in_world).signum();
         }
     }
 }
@@ -181,7 +148,6 @@ fn scene_box(obstacle: &Obstacle, look_seed: u32) -> Option<SceneBox> {
         seed: hash(obstacle.object_id, look_seed),
         town: look_seed,
         whole: [shape.center_in_world.as_vec3a(), half.as_vec3a()],
-        lobe: None,
         form: BuildingForm::Block,
         thing: ThingForm::Plain,
         is_at_street: [false; 4],

@@ -1,13 +1,12 @@
 //! Crowns and bushes that are boxes on top of each other, cut round: those of point clouds and of lists of boxes.
 //!
 //! Each box becomes turned squares that reach to its sides, with upper or lower ends drawn in towards its neighbours; a long
-//! one becomes a row of them. What is drawn lies within the boxes. Crowns of boxes within each other become lobes.
+//! one becomes a row of them. What is drawn lies within the boxes. Crowns of boxes within each other are round as they are.
 
-use crate::crown_lobes::lobes;
-use crate::parts::SceneBox;
+use crate::parts::{BOX_FACES, SceneBox};
 use crate::pattern::draw;
 use cosfly_domain::ObstacleKind;
-use cosfly_frames::DVec2;
+use cosfly_frames::{DVec2, DVec3};
 use std::collections::BTreeMap;
 
 /// Boxes overlap by less in height where they lie on each other, metres.
@@ -31,11 +30,7 @@ type Tier = ([f64; 2], [f64; 2]);
 /// Cuts all crowns and bushes of boxes on top of each other.
 pub fn round_crowns(boxes: &mut Vec<SceneBox>) {
     let mut plants: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
-    let mut trunks: BTreeMap<u32, usize> = BTreeMap::new();
     for (number, b) in boxes.iter().enumerate() {
-        if b.kind == ObstacleKind::TreeTrunk {
-            trunks.insert(b.instance, number);
-        }
         if matches!(b.kind, ObstacleKind::TreeCrown | ObstacleKind::Bush) {
             plants.entry(b.instance).or_default().push(number);
         }
@@ -44,11 +39,7 @@ pub fn round_crowns(boxes: &mut Vec<SceneBox>) {
     for plant in plants.values_mut() {
         plant.sort_by(|a, b| boxes[*a].center_in_world.z.total_cmp(&boxes[*b].center_in_world.z));
         let stack: Vec<&SceneBox> = plant.iter().map(|number| &boxes[*number]).collect();
-        let trunk = plant.first().and_then(|number| trunks.get(&boxes[*number].instance)).map(|number| &boxes[*number]);
-        if let Some(mut lobes) = lobes(&stack, trunk) {
-            // All of them in the place of the first box.
-            parts.extend(plant.iter().map(|number| (*number, std::mem::take(&mut lobes))));
-        } else if is_stack(&stack) {
+        if is_stack(&stack) {
             let cut = tiers(&stack).into_iter().zip(&stack).map(|(tiers, b)| cut(b, &tiers));
             parts.extend(plant.iter().copied().zip(cut));
         }
@@ -120,16 +111,26 @@ fn part(b: &SceneBox, ([low, high], widths): &Tier, turn: f64) -> SceneBox {
         let aside = place.x * b.axes_in_world[0] + place.y * b.axes_in_world[1];
         *corner = (b.center_in_world + aside).with_z(z_m[number / 4]);
     }
-    part.fit_to_corners();
+    let corners = part.corners_in_world;
+    let (least, most) = corners
+        .iter()
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(least, most), corner| (least.min(*corner), most.max(*corner)));
+    (part.center_in_world, part.half_bounds_m) = (0.5 * (least + most), 0.5 * (most - least));
+    part.half_extents_m.z = part.half_bounds_m.z as f32;
+    part.axes_in_world = [[0, 1], [0, 2]].map(|[from, to]: [usize; 2]| (corners[to] - corners[from]).normalize());
+    for (face, side) in part.sides_in_world.iter_mut().enumerate() {
+        let [a, b, c, _] = BOX_FACES[face].2.map(|corner| corners[corner]);
+        let normal = (b - a).cross(c - b).normalize();
+        *side = normal * normal.dot(a - part.center_in_world).signum();
+    }
     part
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parts::{BOX_FACES, boxes_of};
+    use crate::parts::boxes_of;
     use cosfly_domain::{Obstacle, OrientedBox, Town};
-    use cosfly_frames::DVec3;
 
     fn plant_of(kind: ObstacleKind, shapes: &[OrientedBox]) -> Vec<SceneBox> {
         let one = |shape: &OrientedBox| Obstacle { shape: *shape, kind, object_id: 5, synthetic: false };
@@ -169,10 +170,10 @@ mod tests {
     }
 
     #[test]
-    fn hedges_and_small_crowns_within_each_other_stay() {
+    fn hedges_and_boxes_within_each_other_stay() {
         for (kind, shapes) in [
             (ObstacleKind::Bush, vec![layer([6.0, 0.5], [0.0, 1.5])]),
-            (ObstacleKind::TreeCrown, vec![layer([0.3, 0.3], [2.0, 4.0]), layer([0.4, 0.4], [2.5, 3.5])]),
+            (ObstacleKind::TreeCrown, vec![layer([2.0, 2.0], [2.0, 8.0]), layer([3.0, 3.0], [3.0, 6.0])]),
         ] {
             let mut boxes = plant_of(kind, &shapes);
             round_crowns(&mut boxes);

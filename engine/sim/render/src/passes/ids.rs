@@ -43,8 +43,6 @@ pub(crate) struct CrownSpan {
     pub reach_m: f32,
     /// Twigs without leaves.
     pub is_bare: bool,
-    /// How fine its leaves are, see [`cosfly_materials::leaves::Leaves::fine`].
-    pub fine: f32,
     pub outline: LeafCrown,
 }
 
@@ -184,8 +182,8 @@ fn surface_of(number: u32, face: &DrawnFace) -> u32 {
         FaceSource::Prop { .. } => 0x8300_0000 | (face.instance & 0xff_ffff),
         // Of a scan, sides that look elsewhere have edges: roofs, walls, ground.
         FaceSource::Mesh { .. } => 0x9000_0000 | way(face.normal) << 24 | (face.instance & 0xff_ffff),
-        // Lobes of crowns are round: they have no edges between the faces of their box.
-        FaceSource::Crown { index, .. } => 0x8400_0000 | (index & 0xff_ffff),
+        // Round crowns have no edges between the faces of their boxes.
+        FaceSource::Crown { .. } => 0x8400_0000 | (face.instance & 0xff_ffff),
         FaceSource::Box { .. } => number & 0x7fff_ffff,
     }
 }

@@ -19,21 +19,15 @@ use cosfly_materials::vector::Vec3;
 /// Gaps reach this far into a crown, metres.
 const REACH_M: f32 = 0.6;
 /// Share of a half width that gaps reach at most.
-const REACH_SHARE: f32 = 0.4;
-/// What is seen in a gap lies at least this far behind the leaves, metres.
-const BEHIND_M: f32 = 0.3;
+const REACH_SHARE: f32 = 0.28;
 /// Pixels that gaps reach at most.
 const MOST_PX: f32 = 20.0;
-/// Edges before other leaves of the same tree are broken where gaps reach this far, pixels; they reach that
-/// far at most.
-const LEAST_WITHIN_PX: f32 = 4.0;
-const MOST_WITHIN_PX: f32 = 8.0;
 /// Reach of crowns without leaves, metres.
 const BARE_REACH_M: f32 = 1.2;
 const BARE_REACH_SHARE: f32 = 0.5;
 const MOST_BARE_PX: f32 = 32.0;
 /// How thin leaves must be for a gap: at the edge, and that much more at the end of its reach.
-const THIN: [f32; 2] = [0.88, 0.72];
+const THIN: [f32; 2] = [0.96, 0.78];
 /// How far from the middle of a twig a gap begins, likewise.
 const BARE_THIN: [f32; 2] = [0.05, 0.20];
 /// How fast leaves become a gap as noise grows: edges of leaves are soft, so that no pixel pops.
@@ -59,17 +53,13 @@ pub(super) fn note(seen: &Seen<'_>, run: &Run, width: usize, crowns: &mut Vec<Cr
     let is_bare = leaves.is_bare();
     let (reach_m, reach_share) = if is_bare { (BARE_REACH_M, BARE_REACH_SHARE) } else { (REACH_M, REACH_SHARE) };
     let reach_m = reach_m.min(reach_share * leaves.half_width_m());
-    let Run { start, length, .. } = *run;
-    crowns.push(CrownSpan { start, length, instance: face.instance, reach_m, is_bare, fine: leaves.fine(), outline });
+    crowns.push(CrownSpan { start: run.start, length: run.length, instance: face.instance, reach_m, is_bare, outline });
 }
 
 /// Buffers of the pass.
 #[derive(Default)]
 pub struct Foliage {
     waiting: Option<Box<Waiting>>,
-    spans: Vec<(usize, CrownSpan)>,
-    /// Number of the span that shows each pixel of a crown; anything for other pixels.
-    span_at: Vec<u32>,
     changes: Vec<Change>,
 }
 
@@ -100,8 +90,6 @@ struct Places {
     pixel_m: [f32; TOGETHER],
     /// Where the pattern of the tree begins.
     shift: [f32; TOGETHER],
-    /// How fine its leaves are.
-    fine: [f32; TOGETHER],
     /// Pixels with more of a gap than this have some of one.
     least: [f32; TOGETHER],
     /// One where there are twigs and no leaves.
@@ -126,9 +114,6 @@ struct Edge {
 struct Picture<'a> {
     view: &'a View,
     images: &'a FrameImages,
-    /// Crowns' pixels, with the first of each, and which of them shows a pixel.
-    spans: &'a [(usize, CrownSpan)],
-    span_at: &'a [u32],
 }
 
 impl Foliage {
@@ -137,19 +122,12 @@ impl Foliage {
         self.changes.clear();
         let (width, pixels) = (images.width as usize, images.depth_m.len());
         let waiting = self.waiting.get_or_insert_with(|| Box::new(Waiting::EMPTY));
-        self.spans.clear();
-        self.span_at.resize(pixels, 0);
+        let picture = Picture { view: &setting.view, images };
+        let mut look = |waiting: &mut Waiting| waiting.look(setting, &scene.noise, images, &mut self.changes);
         for (band, crowns) in runs.crowns(width, pixels) {
             for span in crowns {
-                let start = band + span.start as usize;
-                self.span_at[start..][..span.length as usize].fill(self.spans.len() as u32);
-                self.spans.push((start, *span));
+                picture.span(span, band + span.start as usize, waiting, &mut look);
             }
-        }
-        let picture = Picture { view: &setting.view, images, spans: &self.spans, span_at: &self.span_at };
-        let mut look = |waiting: &mut Waiting| waiting.look(setting, &scene.noise, images, &mut self.changes);
-        for (start, span) in &self.spans {
-            picture.span(span, *start, waiting, &mut look);
         }
         look(waiting);
         for Change { at, colour } in &self.changes {
@@ -168,30 +146,21 @@ impl Picture<'_> {
         let mut edge = |edge: Edge| self.edge(span, &edge, waiting, look);
         edge(Edge { first: start, inward: 1, most: length, beyond: from });
         edge(Edge { first: start + length - 1, inward: -1, most: length, beyond: width - from - length });
-        let (down, depth_m) = (width as isize, &self.images.depth_m);
-        let own_m = &depth_m[start..][..length];
-        let mut beside = |from: usize, new: &dyn Fn(usize) -> Edge| {
-            for (at, (other, own)) in depth_m[from..][..length].iter().zip(own_m).enumerate() {
-                if *other >= own + BEHIND_M {
-                    edge(new(start + at));
-                }
-            }
-        };
+        let (down, instance) = (width as isize, &self.images.instance);
         if row > 0 {
-            beside(start - width, &|first| Edge { first, inward: down, most: height - row, beyond: row });
+            for (at, _) in
+                instance[start - width..][..length].iter().enumerate().filter(|(_, id)| **id != span.instance)
+            {
+                edge(Edge { first: start + at, inward: down, most: height - row, beyond: row });
+            }
         }
         if row + 1 < height {
-            let beyond = height - row - 1;
-            beside(start + width, &|first| Edge { first, inward: -down, most: row + 1, beyond });
+            for (at, _) in
+                instance[start + width..][..length].iter().enumerate().filter(|(_, id)| **id != span.instance)
+            {
+                edge(Edge { first: start + at, inward: -down, most: row + 1, beyond: height - row - 1 });
+            }
         }
-    }
-
-    /// Whether a pixel shows the clump of leaves of a span.
-    fn is_of(&self, pixel: usize, span: &CrownSpan) -> bool {
-        self.images.instance[pixel] == span.instance
-            && (self.spans.get(self.span_at[pixel] as usize)).is_some_and(|(start, own)| {
-                pixel.wrapping_sub(*start) < own.length as usize && own.outline == span.outline
-            })
     }
 
     /// Lists the pixels of an edge that may be gaps.
@@ -204,30 +173,24 @@ impl Picture<'_> {
             return;
         }
         let outside = first.wrapping_add_signed(-inward);
-        // Nothing farther away, or another face of the same leaves.
-        if depth_m[outside] < depth + BEHIND_M || self.is_of(outside, span) {
+        // Nothing farther away, or another face of the same tree.
+        if depth_m[outside] < depth + 0.3 || instance[outside] == span.instance {
             return;
         }
         let is_body = is_body(semantic[outside]);
         let pixel_m = self.view.pixel() * depth;
         let (most_px, thin) = if span.is_bare { (MOST_BARE_PX, BARE_THIN) } else { (MOST_PX, THIN) };
         let reach = (span.reach_m / pixel_m).min(most_px);
-        // Small clumps before others of their tree; gaps of large ones would mirror whole boughs.
-        let is_within = instance[outside] == span.instance;
-        if reach < LEAST_WITHIN_PX && is_within {
-            return;
-        }
-        let reach = if is_within { reach.min(MOST_WITHIN_PX) } else { reach };
         let count = (reach as usize).min(most).min(beyond);
         let shift = 97.0 * unit(hash(span.instance, 12));
         for k in 0..count {
             let pixel = first.wrapping_add_signed(inward * k as isize);
-            if !self.is_of(pixel, span) {
+            if instance[pixel] != span.instance {
                 break;
             }
             let depth = depth_m[pixel];
             let behind = first.wrapping_add_signed(-inward * (k as isize / 2 + 1));
-            if depth_m[behind] < depth + BEHIND_M {
+            if depth_m[behind] < depth + 0.3 {
                 continue;
             }
             // One surface only: what stands beyond the edge, and lines on the ground, have no image within the crown.
@@ -243,7 +206,6 @@ impl Picture<'_> {
             depth_m[at] = depth;
             waiting.place.pixel_m[at] = pixel_m;
             waiting.place.shift[at] = shift;
-            waiting.place.fine[at] = span.fine;
             for (rows, v) in [(&mut waiting.place.middle, outline.middle), (&mut waiting.place.shrink, outline.shrink)]
             {
                 (rows[0][at], rows[1][at], rows[2][at]) = (v.x, v.y, v.z);
@@ -269,7 +231,6 @@ impl Waiting {
             depth_m: [1.0; TOGETHER],
             pixel_m: [1.0; TOGETHER],
             shift: [0.0; TOGETHER],
-            fine: [1.0; TOGETHER],
             least: [0.0; TOGETHER],
             bare: [0.0; TOGETHER],
             middle: [[0.0; TOGETHER]; 3],
@@ -308,9 +269,9 @@ simd_kernel! {
             // No face of a box is seen edge-on in these two directions.
             let x = 0.8 * place.x + 0.45 * place.y + 0.3 * place.z;
             let y = 0.35 * place.x - 0.7 * place.y + 0.85 * place.z;
-            let (pixel_m, shift, per_m) = (places.pixel_m[k], places.shift[k], 15.0 * places.fine[k]);
+            let (pixel_m, shift) = (places.pixel_m[k], places.shift[k]);
             let leaves = noise.rough(x * 26.0 + shift, y * 26.0, pixel_m * 26.0);
-            let branches = noise.clumps(x * per_m, y * per_m + shift, pixel_m * per_m);
+            let branches = noise.clumps(x * 15.0, y * 15.0 + shift, pixel_m * 15.0);
             let twigs = 1.0 * (branches - 0.5).abs() + 0.3 * (leaves - 0.5).abs();
             let thin = lerp(1.7 * branches + 0.75 * leaves, twigs, places.bare[k]);
             *gap = share((thin + CORNER * corner - places.least[k]) * STEEPNESS);
