@@ -71,8 +71,8 @@ impl ItemReader<'_> {
                     let grouped = groups.sorted(self.done, at_port.arrivals);
                     bounds.clone_from(&grouped.1);
                     if matches!(properties.items, ItemRule::PerInput(_)) {
-                        self.check_even(&wire, &items, &bounds)?;
-                        self.check_gifts(&wire, &grouped.0, &bounds)?;
+                        self.check_even(wire, &items, &bounds)?;
+                        self.check_gifts(wire, &grouped.0, &bounds)?;
                     }
                     grouped.0
                 }

@@ -62,7 +62,7 @@ impl BoxThing {
             colour = self.doors(colour, point, at, half_u);
         } else {
             let wave = waves(along / WAVE_M, wave_size);
-            colour = colour * lerp(1.0, wave, depth * (1.0 - framed));
+            colour *= lerp(1.0, wave, depth * (1.0 - framed));
         }
         if AXIS != 2 && !is_end && draw(self.seed, 31) < LETTERED {
             colour = colour.lerp(self.ink(), 0.85 * self.letters(point, at, [half_u, half_v]));
@@ -232,7 +232,7 @@ fn waves(x: f32, width: f32) -> f32 {
 fn letter_cell(seed: u32, [column, row]: [i32; 2], count: f32) -> f32 {
     let letter = column >> 2;
     let place = column & 3;
-    let is_within = (column >= 0) & ((letter as f32) < count) & (place != 3) & (row >= 0) & (row < 5);
+    let is_within = (column >= 0) & ((letter as f32) < count) & (place != 3) & (0..5).contains(&row);
     let drawn = hash(letter as u32, seed);
     let cells = (drawn | 0b11111).wrapping_shr((place as u32).wrapping_mul(5).wrapping_add(row as u32) & 31) & 1;
     one_if(is_within & (cells == 1))

@@ -29,7 +29,7 @@ fn drawn_m(triangles: &[[DVec3; 3]], at: DVec2) -> f64 {
         let area = ab.perp_dot(ac);
         let (u, v) = (away.perp_dot(ac) / area, ab.perp_dot(away) / area);
         let is_in = area.abs() > 1e-9 && u >= -1e-9 && v >= -1e-9 && u + v <= 1.0 + 1e-9;
-        is_in.then(|| a.z + u * (b.z - a.z) + v * (c.z - a.z))
+        is_in.then_some(a.z + u * (b.z - a.z) + v * (c.z - a.z))
     };
     triangles.iter().filter_map(height).fold(f64::NEG_INFINITY, f64::max)
 }
@@ -52,7 +52,6 @@ fn errors_m(map: &[u8], world_from_map: impl Fn(DVec2) -> DVec2, inset_m: f64) -
         }
         let height_m = drawn_m(&triangles, world_from_map(at));
         let off_m = (height_m - roof_m(at)).abs();
-        if place % 7 == 0 && (own(at).x - 1.0).abs() < 0.2 {}
         (sum_m, worst_m, count) = (sum_m + off_m, worst_m.max(off_m), count + 1.0);
         let beside_m = drawn_m(&triangles, world_from_map(at + DVec2::new(0.1, 0.0)));
         jump_m = jump_m.max((beside_m - height_m).abs());
