@@ -152,7 +152,10 @@ impl Slopes {
         let labels: Vec<u16> = (0..roofs.len()).map(|cell| if has_roof(cell) { of_seed(cell) } else { NONE }).collect();
         self.labels = labels;
         self.spread(grid, roofs);
-        let tops_m: Vec<Option<f64>> = (0..roofs.len()).map(|cell| self.top_m(grid, cell, points)).collect();
+        // Planes are a little above their points: no roof rises above the highest point of its building.
+        let most_m = points.0.iter().flatten().map(|point| point.z).fold(f64::MIN, f64::max);
+        let top_m = |cell: usize| self.top_m(grid, cell, points).map(|top_m| top_m.min(most_m));
+        let tops_m: Vec<Option<f64>> = (0..roofs.len()).map(top_m).collect();
         let (mut all, mut on_slopes) = (0.0, 0.0_f64);
         for (roof, top_m) in roofs.iter_mut().zip(tops_m) {
             let Some(column) = roof else { continue };
