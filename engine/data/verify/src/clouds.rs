@@ -27,8 +27,8 @@ const ALLOWED_M: f64 = 0.15;
 /// Share of the points that may be wrong: rounded rays beside edges.
 const ALLOWED_SHARE: f64 = 0.02;
 
-/// Steps of pitched roofs, whose slopes rays meet somewhere within, are at most so high, metres.
-const ROOF_STEP_M: f64 = 1.05;
+/// What is drawn of a pitched roof, which rays meet, lies at most so far below the upper face of its box, metres.
+const ROOF_M: f64 = 1.6;
 /// Share of a crown's box around its middle that round crowns fill; boxes so many times longer than wide are rows of trees,
 /// with gaps anywhere.
 const CORE: f64 = 0.25;
@@ -36,7 +36,7 @@ const ROW: f64 = 3.0;
 
 /// Boxes of a town that rays meet as boxes: cars are drawn as vehicles.
 struct Boxes {
-    /// What no ray passes: buildings without the highest step of a roof, the middles of crowns; benches, stalls and static things are open.
+    /// What no ray passes: buildings without their roofs, the middles of crowns; benches, stalls and static things are open.
     solid: BoxBvh,
     /// All boxes by their instance id.
     things: BTreeMap<u32, Vec<OrientedBox>>,
@@ -72,7 +72,7 @@ impl Boxes {
         let mut things: BTreeMap<u32, Vec<OrientedBox>> = BTreeMap::new();
         list.iter().for_each(|(instance, _, shape)| things.entry(*instance).or_default().push(*shape));
         let solid = list.iter().map(|(_, filled, shape)| {
-            let off_m = if matches!(filled, Filled::BelowRoof) { 0.5 * ROOF_STEP_M * DVec3::Z } else { DVec3::ZERO };
+            let off_m = if matches!(filled, Filled::BelowRoof) { 0.5 * ROOF_M * DVec3::Z } else { DVec3::ZERO };
             let [least_m, most_m] = [
                 shape.half_extents_m.x.min(shape.half_extents_m.y),
                 shape.half_extents_m.x.max(shape.half_extents_m.y),
@@ -410,6 +410,8 @@ mod tests {
         };
         let is_right = |label, z_m, range_m| ray(Filled::of(label, "any"), z_m, range_m);
         assert!(is_right(SemanticLabel::Building, 5.5, 24.0) && is_right(SemanticLabel::Building, 3.0, 20.0));
+        // Planes of measured roofs lie deeper than steps are high.
+        assert!(is_right(SemanticLabel::Building, 4.5, 24.0) && !is_right(SemanticLabel::Building, 4.3, 24.0));
         assert!(!is_right(SemanticLabel::Building, 3.0, 24.0) && !is_right(SemanticLabel::Building, 5.5, 19.0));
         assert!(!is_right(SemanticLabel::Wall, 5.5, 24.0));
         // Rays pass between the posts of a stall.
