@@ -166,7 +166,7 @@ def check_rig(bag):
                 tree.add(message)
             elif connection.topic.endswith("/detections"):
                 camera = connection.topic.split("/")[2]
-                told[camera].append((time_ns, message, tree.in_map(f"{camera}_optical_frame")))
+                told[camera].append((time_ns, message, tree.in_map(f"camera_{camera}_optical_frame")))
     assert set(told) == set(films) and len(films) > 1, bag
     for camera, id in films.items():
         for (time_ns, message, (rotation, found)), (frame, row) in zip(told[camera], sorted(frames[id].items()), strict=True):

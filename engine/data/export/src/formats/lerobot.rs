@@ -78,7 +78,7 @@ impl Format for LeRobot {
         }
         let max_depth_m = options.depth.then_some(options.max_depth_m as f32);
         let films = Films::of(source);
-        let (eyes, dt_s) = Eye::of_all(source, &films)?;
+        let (eyes, dt_s) = Eye::of_all(source, &films, options.depth)?;
         let kind = Kind { fps: fps(dt_s)?, sensed: sensed(source, &films)?, films, eyes, max_depth_m };
         for split in source.splits() {
             write_split(options.instructions.language, source, out, split, &kind)?;

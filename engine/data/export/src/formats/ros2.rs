@@ -393,7 +393,7 @@ place at the beginning of the sweep |
 | `/instruction`* | `std_msgs/String` | what the drone is told |
 
 Where several cameras filmed a flight, its bag has all of them: topics `/camera/NAME/camera_info`, `/camera/NAME/image_raw/compressed`,
-`/camera/NAME/depth/...`, `/camera/NAME/semantic/image_raw` and `/camera/NAME/detections`, frames `NAME_link` and `NAME_optical_frame`, each
+`/camera/NAME/depth/...`, `/camera/NAME/semantic/image_raw` and `/camera/NAME/detections`, frames `camera_NAME_link` and `camera_NAME_optical_frame`, each
 camera at its own times. Motion is that of the film with the most frames a second; a sensor that was read along several films is that of the
 first one.
 

@@ -25,8 +25,8 @@ impl Eye {
     /// The cameras of all episodes, in the order of their films, and the time between frames, seconds.
     ///
     /// # Errors
-    /// `export-lerobot`: episodes that differ in their cameras, picture sizes, times or lengths.
-    pub fn of_all(source: &Source<'_>, films: &Films<'_>) -> Result<(Vec<Self>, f64)> {
+    /// `export-lerobot`: episodes that differ in their cameras, picture sizes, times or lengths; two features of one name.
+    pub fn of_all(source: &Source<'_>, films: &Films<'_>, has_depth: bool) -> Result<(Vec<Self>, f64)> {
         let Some(first) = source.flights().next() else { return Ok((vec![], 0.0)) };
         let all = cameras(films.of_flight(first));
         for films in films.each() {
@@ -49,7 +49,14 @@ impl Eye {
             }
             _ => Self { colours: PICTURE, depths: DEPTH, size_px: *size_px },
         };
-        Ok((all.iter().map(eye).collect(), first.dt_s))
+        let eyes: Vec<Self> = all.iter().map(eye).collect();
+        let is_twice = |one: &&Self| has_depth && eyes.iter().any(|other| other.depths == one.colours);
+        if let Some(twice) = eyes.iter().find(is_twice) {
+            let message = format!("`{}` is the colours of one camera and the depth of another", twice.colours);
+            let hint = "LeRobot has one feature of a name: choose one of the two cameras with `--trajectory`";
+            return Err(Diagnostic::new("export-lerobot", Fault::Recipe, message).hint(hint));
+        }
+        Ok((eyes, first.dt_s))
     }
 }
 
