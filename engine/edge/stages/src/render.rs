@@ -69,7 +69,7 @@ impl StageKind for Render {
         let bare = RenderConfig { models: vec![], season: None, mesh: None, splats: None, ..config.clone() };
         let nearby = nearby::part(&bare, canonical(&bare, parameters::canonical(&bare)), items.clone());
         let properties = StageProperties {
-            version: 34,
+            version: 35,
             parameters: canonical(&config, parameters::joined_canonical(&config, &encoding, pictures::ENCODING)),
             sources,
             inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],
@@ -218,8 +218,12 @@ fn filmable(
         let hint = format!("set its `offset_s` in `stages.{}.cameras` to less than {step_s}", context.id.stage);
         return Err(Diagnostic::new("camera-offset", Fault::Recipe, message).hint(hint));
     }
-    let too_short = (film.frames().count() < 2 && (every > 1 || offset_s > 0.0))
-        .then(|| format!("every {every}th of {} frames, from {offset_s} s on, is one picture", flight.track.len()));
+    let too_short = (film.frames().count() < 2 && (every > 1 || offset_s > 0.0)).then(|| {
+        format!(
+            "a film needs two pictures; one of every {every} of {} frames, from {offset_s} s on, is one",
+            flight.track.len()
+        )
+    });
     let inside = too_short.or_else(|| camera_inside(world, film.poses()));
     Ok(inside.map_or(Ok((flight, shooting)), Err))
 }

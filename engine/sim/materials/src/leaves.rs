@@ -2,18 +2,18 @@
 //!
 //! Boxes of crowns are small on the screen: all of a picture are shaded together, each four with the numbers of its crown.
 
+use super::clumps::{CLUMPS, CrownRay, CrownRays, NearestClump, outwards};
 use super::lanes::{
-    Block, EMPTY_ROW, FOUR, PendingFours, Shared, StageRow, WIDE, get, groups, set, three_of, write_row, write_three,
+    Block, EMPTY_ROW, FOUR, PendingFours, PixelLane, Shared, StageRow, WIDE, get, groups, set, three_of, write_row,
+    write_three,
 };
-use super::pattern::{
-    NoiseLevel, NoiseTexture, Noises, draw, hash, least, lerp, most, one_if, share, smoothstep, unit,
-};
-use super::surface::{Look, SurfacePoint};
+use super::pattern::{NoiseTexture, Noises, draw, hash, least, lerp, most, one_if, share, smoothstep, unit};
+use super::surface::Look;
 use super::vector::Vec3;
 use crate::parts::SceneBox;
 use crate::season;
 use cosfly_domain::{ObstacleKind, Season};
-use cosfly_frames::simd_kernel;
+use cosfly_frames::{real, simd_kernel};
 
 /// Leaves by species, linear RGB: plane, lime, maple, oak, ash, willow, cherry, olive, birch, and copper beech.
 const SPECIES: [[f32; 3]; 10] = [
@@ -53,10 +53,7 @@ const EVERGREEN_BUSHES: f32 = 0.6;
 const ASIDE_M: f32 = 1.2;
 
 /// Texels of clumps per metre.
-const PER_M: f32 = 20.0;
-
-/// Frequency of boughs, in frequencies of clumps.
-const BOUGHS: f32 = 0.36;
+const PER_M: f32 = 24.0;
 
 /// Ground below bare crowns, linear RGB.
 const BELOW: Vec3 = Vec3::new(0.150, 0.131, 0.096);
@@ -78,6 +75,8 @@ pub struct Leaves {
     through: f32,
     /// Where its patterns begin.
     shift: f32,
+    /// Cosine and sine of how its clumps are turned around the upright.
+    turn: [f32; 2],
 }
 
 impl Leaves {
@@ -102,13 +101,16 @@ impl Leaves {
             Some([slope, offset]) => green.lerp(late, share(slope * draw(seed, 9) + offset)),
             None => green * look.leaf,
         };
+        let shift = 37.0 * unit(if place == 0 { seed } else { hash(seed, place) });
+        let (sin, cos) = real::sin_cos(f64::from(shift) * core::f64::consts::TAU / 37.0);
         Some(Self {
             middle,
             half,
             shrink: half.map(|half| 1.0 / half.max(0.1)),
             tint: leaves * (0.8 + 0.45 * draw(seed, 1)),
             through: if is_bare { 0.0 } else { 1.0 },
-            shift: 37.0 * unit(if place == 0 { seed } else { hash(seed, place) }),
+            shift,
+            turn: [cos as f32, sin as f32],
         })
     }
 
@@ -119,7 +121,7 @@ impl Leaves {
 
     /// The round crown.
     pub fn outline(&self) -> LeafCrown {
-        LeafCrown { middle: self.middle, shrink: self.shrink }
+        LeafCrown { middle: self.middle, shrink: self.shrink, turn: self.turn }
     }
 
     /// Half the lesser width of the crown, metres.
@@ -135,16 +137,23 @@ pub struct LeafCrown {
     pub middle: Vec3,
     /// One divided by half the size of the whole crown, 1/m.
     pub shrink: Vec3,
+    /// Cosine and sine of how its clumps are turned around the upright.
+    pub turn: [f32; 2],
 }
 
 impl LeafCrown {
-    /// How far a ray from the eye passes the round crown by, as a share of half the crown's size; 0 where the ray meets it.
+    /// A ray from the eye in the crown's own measure.
     #[inline(always)]
-    pub fn passed_by(&self, eye: Vec3, along: Vec3) -> f32 {
-        let (from, along) = ((eye - self.middle) * self.shrink, along * self.shrink);
-        let nearest = from - along * (along.dot(from) / along.dot(along));
-        most(nearest.dot(nearest).sqrt() - ROUND, 0.0)
+    pub fn ray(&self, eye: Vec3, along: Vec3) -> CrownRay {
+        let from = turned((eye - self.middle) * self.shrink, self.turn);
+        CrownRay::new(from, turned(along * self.shrink, self.turn).unit())
     }
+}
+
+/// A direction or place of the world in a crown's measure, turned as clumps are.
+#[inline(always)]
+fn turned(v: Vec3, [cos, sin]: [f32; 2]) -> Vec3 {
+    Vec3::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y, v.z)
 }
 
 /// Crowns on the stage, one for each four.
@@ -155,6 +164,7 @@ pub struct Crowns {
     tint: [StageRow; 3],
     through: StageRow,
     shift: StageRow,
+    turn: [StageRow; 2],
 }
 
 impl Crowns {
@@ -166,6 +176,7 @@ impl Crowns {
         tint: [EMPTY_ROW; 3],
         through: EMPTY_ROW,
         shift: EMPTY_ROW,
+        turn: [EMPTY_ROW; 2],
     };
 
     #[inline(always)]
@@ -186,6 +197,8 @@ simd_kernel! {
             write_three(&mut crowns.tint, at, look.tint);
             write_row(&mut crowns.through, at, look.through);
             write_row(&mut crowns.shift, at, look.shift);
+            write_row(&mut crowns.turn[0], at, look.turn[0]);
+            write_row(&mut crowns.turn[1], at, look.turn[1]);
         }
     }
 }
@@ -217,9 +230,9 @@ impl Seen {
 }
 
 simd_kernel! {
-    /// Moves places on a crown's boxes to the round crown around them, along the view, and turns normals its way:
-    /// light and leaves then know nothing of boxes. `pixel` is the size of a pixel at a distance of 1.
-    pub fn swell(shared: &mut [Shared], blocks: &mut [Block], crowns: &Crowns, eye: Vec3, pixel: f32) {
+    /// Moves the middles of fours on a crown's boxes to the round crown around them, along the view, and turns normals its way:
+    /// light then knows nothing of boxes. `pixel` is the size of a pixel at a distance of 1.
+    pub fn swell(shared: &mut [Shared], crowns: &Crowns, eye: Vec3, pixel: f32) {
         for (group, shared) in shared.iter_mut().enumerate() {
             for k in 0..WIDE {
                 let crown = crowns.seen(eye, group, k);
@@ -230,51 +243,114 @@ simd_kernel! {
                 shared.footprint_m[k] = pixel * away.dot(away).sqrt();
             }
         }
-        for (group, four) in blocks.as_chunks_mut::<FOUR>().0.iter_mut().enumerate() {
+    }
+}
+
+simd_kernel! {
+    /// The look of leaves. Places move from the crown's boxes to the round crown and on by `off_crown`, to where the light on them is
+    /// that of the crown's surroundings: no box of its own shades another. Leaves of a clump move aside with it, so that shadows on
+    /// crowns are ragged.
+    pub fn leaves(
+        shared: &[Shared],
+        blocks: &mut [Block],
+        crowns: &Crowns,
+        eye: Vec3,
+        off_crown: Vec3,
+        noise: &NoiseTexture,
+    ) {
+        for (group, (shared, four)) in groups(shared, blocks).enumerate() {
             for block in four {
+                let mut nearest = NearestClumps::EMPTY;
                 for k in 0..WIDE {
                     let (place, normal) = crowns.seen(eye, group, k).round(get(&block.world, k));
                     set(&mut block.world, k, place);
                     set(&mut block.normal, k, normal);
                 }
-            }
-        }
-    }
-}
-
-simd_kernel! {
-    /// The look of leaves. Places move by `off_crown`, to where the light on them is that of the crown's surroundings: no box of
-    /// its own shades another. Leaves of a clump move aside with it, so that shadows on crowns are ragged.
-    pub fn leaves(
-        shared: &[Shared],
-        blocks: &mut [Block],
-        crowns: &Crowns,
-        off_crown: Vec3,
-        noise: &NoiseTexture,
-    ) {
-        for (group, (shared, four)) in groups(shared, blocks).enumerate() {
-            let [shifts, throughs] = [&crowns.shift, &crowns.through].map(|row| PendingFours::lane(row, group));
-            for block in four {
+                for (k, ragged) in nearest.ragged.iter_mut().enumerate() {
+                    let place = get(&block.world, k) - three_of(&crowns.middle, group, k);
+                    *ragged = raggedness(place, PendingFours::lane(&crowns.shift, group)[k], shared.footprint_m[k], noise);
+                }
+                let rays = crowns.clumps(group, block, eye, &mut nearest);
                 for k in 0..WIDE {
-                    let [middle, tint] = [&crowns.middle, &crowns.tint].map(|rows| three_of(rows, group, k));
-                    let crown = OnMap { middle, tint, through: throughs[k], shift: shifts[k] };
-                    let point = block.point(shared, k);
-                    let (look, aside) = look(&point, &crown, noise);
+                    let (place, crown) = (get(&block.world, k), crowns.on_map(group, k));
+                    let seen = OnClump { nearest: nearest.at(k), ray: rays.at(k), round: get(&block.normal, k) };
+                    let (look, aside) = look(&seen, &crown, shared.footprint_m[k], nearest.ragged[k], noise);
                     block.put_bent(k, &look);
-                    set(&mut block.world, k, point.world + off_crown + aside * ASIDE_M);
+                    set(&mut block.world, k, place + off_crown + aside * ASIDE_M);
                 }
             }
         }
     }
 }
 
+/// The nearest clumps of sixteen pixels.
+struct NearestClumps {
+    /// How far their leaves stand out or back, as a share of the clump.
+    ragged: PixelLane,
+    reach: PixelLane,
+    middle: [PixelLane; 3],
+    met: PixelLane,
+}
+
+impl NearestClumps {
+    const EMPTY: Self = Self { ragged: [0.0; WIDE], reach: [0.0; WIDE], middle: [[0.0; WIDE]; 3], met: [0.0; WIDE] };
+
+    #[inline(always)]
+    fn at(&self, k: usize) -> NearestClump {
+        NearestClump { reach: self.reach[k], middle: get(&self.middle, k), met: self.met[k] }
+    }
+
+    #[inline(always)]
+    fn put(&mut self, k: usize, nearest: NearestClump) {
+        (self.reach[k], self.met[k]) = (nearest.reach, nearest.met);
+        set(&mut self.middle, k, nearest.middle);
+    }
+}
+
+/// What a pixel shows: a clump, the ray to it, and the round crown's normal.
+struct OnClump {
+    nearest: NearestClump,
+    ray: CrownRay,
+    round: Vec3,
+}
+
+impl Crowns {
+    #[inline(always)]
+    fn on_map(&self, group: usize, k: usize) -> OnMap {
+        let [tint, half, shrink] = [&self.tint, &self.half, &self.shrink].map(|rows| three_of(rows, group, k));
+        let [shift, through] = [&self.shift, &self.through].map(|row| PendingFours::lane(row, group)[k]);
+        let turn = [0, 1].map(|number| PendingFours::lane(&self.turn[number], group)[k]);
+        OnMap { tint, half, shrink, turn, through, shift }
+    }
+
+    /// Finds which clumps sixteen pixels show; the rays from the round crown to them.
+    #[inline(always)]
+    fn clumps(&self, group: usize, block: &Block, eye: Vec3, nearest: &mut NearestClumps) -> CrownRays<WIDE> {
+        let mut rays = CrownRays::EMPTY;
+        for k in 0..WIDE {
+            let (place, crown) = (get(&block.world, k), self.on_map(group, k));
+            let from = turned((place - three_of(&self.middle, group, k)) * crown.shrink, crown.turn);
+            let ray = CrownRay::new(from, turned((place - eye) * crown.shrink, crown.turn).unit());
+            rays.put(k, ray);
+            nearest.put(k, NearestClump::inside(ray));
+        }
+        for [x, y, z, radius] in CLUMPS {
+            for k in 0..WIDE {
+                let radius = radius * (1.0 + nearest.ragged[k]);
+                nearest.put(k, nearest.at(k).or(rays.at(k), Vec3::new(x, y, z), radius * radius));
+            }
+        }
+        rays
+    }
+}
+
 simd_kernel! {
     /// Crowns in the simple look: of one colour each, darker below.
-    pub fn even_leaves(blocks: &mut [Block], crowns: &Crowns) {
+    pub fn even_leaves(blocks: &mut [Block], crowns: &Crowns, eye: Vec3) {
         for (group, four) in blocks.as_chunks_mut::<FOUR>().0.iter_mut().enumerate() {
             for block in four {
                 for k in 0..WIDE {
-                    let normal = get(&block.normal, k);
+                    let (_, normal) = crowns.seen(eye, group, k).round(get(&block.world, k));
                     set(&mut block.albedo, k, three_of(&crowns.tint, group, k) * 1.2);
                     set(&mut block.bent, k, normal);
                     block.openness[k] = 0.75 + 0.25 * normal.z;
@@ -285,59 +361,75 @@ simd_kernel! {
     }
 }
 
-/// The look of a place on a round crown. Each pattern is seen along a way of its own: none has seams, and where one is drawn
-/// out long, others are not, however high or flat the crown is. Also the way that its clump is turned.
+/// How far the leaves of clumps stand out or back, as a share of the clump; `place` is from the middle of the crown.
 #[inline(always)]
-fn look(point: &SurfacePoint, crown: &OnMap, noise: &NoiseTexture) -> (Look, Vec3) {
-    let out = point.normal;
-    let size = point.footprint_m;
-    let place = (point.world - crown.middle) * PER_M;
-    let (near, far) = (NoiseLevel::of(size * PER_M), NoiseLevel::of(size * PER_M * BOUGHS));
-    let big = clumps(along(place, 1.0, 0.0), crown.shift, near, noise);
-    let aside = clumps(along(place, -0.5, 0.866), crown.shift, near, noise);
-    // Boughs: clumps of clumps, with deep shade between them.
-    let bough = clumps(along(place * BOUGHS, -0.5, -0.866), crown.shift, far, noise);
-    let fine = lerp(0.85, 0.55, crown.through);
-    let (u, v) = facing(place, out);
-    let small = noise.grain(u * fine, v * fine, size * PER_M * fine) - 0.5;
+fn raggedness(place: Vec3, shift: f32, size: f32, noise: &NoiseTexture) -> f32 {
+    let (u, v) = along(place * PER_M);
+    0.45 * (noise.rough(u + shift, v - shift, size * PER_M) - 0.5)
+}
+
+/// The look of a place on a clump. Patterns lie on each clump as seen from outside. Also the way that its leaves are turned.
+#[inline(always)]
+fn look(seen: &OnClump, crown: &OnMap, size: f32, ragged: f32, noise: &NoiseTexture) -> (Look, Vec3) {
+    let OnClump { nearest, ray, round } = seen;
+    let (met, bare) = (nearest.place(*ray), 1.0 - crown.through);
+    let on_clump = crown.back(met - nearest.middle);
+    let out = (on_clump * crown.shrink).unit();
+    // Where sides of a clump meet, leaves hide the seam.
+    let (u, v) = facing(on_clump * crown.half * PER_M, out + Vec3::new(ragged, -ragged, 0.0) * 2.0);
+    // Sides of clumps that the eye sees at a slant are finer.
+    let radius = met - nearest.middle;
+    let slant = share(nearest.met / (radius.dot(radius) + 1e-6));
+    let size = size / most(slant.sqrt(), 0.4);
+    let apart = crown.shift + 60.0 * (nearest.middle.x + nearest.middle.y);
+    // Nothing is drawn out long beyond the edges of clumps.
+    let clear = share(1.0 + 12.0 * nearest.met);
+    let big = clear * (noise.rough(u + apart, v - apart, 1.15 * size * PER_M) - 0.5);
+    let fine = lerp(0.85, 1.0, crown.through);
+    let small = clear * (noise.grain(u * fine, v * fine, 1.15 * size * PER_M * fine) - 0.5);
+    // Leaves have edges: light ones before dark gaps.
+    let leaf = share(0.5 + small * (4.0 - 3.0 * share(size * PER_M * fine - 0.25))) - 0.5;
     // Twigs are lines, level sets of the same noise, with what lies below the crown between them; they fade where a
     // pixel is as large as a texel.
-    let bare = 1.0 - crown.through;
     let open = bare * share((small.abs() - 0.01) / (0.10 + 0.40 * least(size * PER_M * fine, 1.0)));
     let small = small * crown.through;
-    // Every clump of leaves faces its own way.
-    let turn = Vec3::new(aside - big, aside + big - bough, bough + 0.5 * big);
-    let bent = (out + turn * 2.4).lerp(Vec3::new(0.0, 0.0, 1.0), 0.3 * bare);
-    let deep = smoothstep(-0.62, 0.66, 1.6 * bough + 1.3 * big + 1.6 * small);
+    // Every twig of leaves faces its own way.
+    let turn = Vec3::new(2.0 * ragged - big, 2.0 * ragged + leaf, big + ragged);
+    let bent = (out + turn * 1.6 + Vec3::new(0.0, 0.0, 0.25)).lerp(Vec3::new(0.0, 0.0, 1.0), 0.6 * bare);
+    let outer = lerp(outwards(met) * lerp(0.5, 1.0, clear), 0.75, 0.7 * bare);
+    let deep = smoothstep(-0.75, 1.15, 2.1 * outer - 1.15 + 1.9 * big + 0.9 * leaf * crown.through);
     // Light shines through leaves at the rim of a clump: they are yellower there.
     let through = Vec3::new(1.9, 1.45, 1.1) * crown.through + Vec3::splat(0.6 * bare);
     let tint = crown.tint.lerp(crown.tint * through, 0.5 * (small + 0.5) * deep);
-    let tint = (tint * (0.50 + 0.90 * deep)).lerp(BELOW, open * (0.5 + 0.25 * deep));
+    let tint = (tint * (0.45 + 0.95 * deep)).lerp(BELOW, open * (0.5 + 0.25 * deep));
     // Darker below, where the crown shades itself.
-    let shade = 0.5 + 0.5 * smoothstep(-1.0, 0.6, out.z + bare);
-    let openness = lerp((0.42 + 0.68 * deep) * shade, 0.85, 0.5 * open);
+    let shade = 0.4 + 0.3 * smoothstep(-1.0, 0.6, round.z + bare) + 0.3 * smoothstep(-0.7, 0.5, out.z + bare);
+    let openness = lerp((0.30 + 0.80 * deep) * shade, 0.85, 0.5 * open);
     (Look { openness, ..Look::matt(tint, bent.unit()) }, turn)
 }
 
 /// A crown as its patterns know it.
 struct OnMap {
-    middle: Vec3,
     tint: Vec3,
+    half: Vec3,
+    shrink: Vec3,
+    turn: [f32; 2],
     through: f32,
     shift: f32,
 }
 
-/// Where a place lies seen along a way that leans from upright to a horizontal direction. Directions are a third of a turn
-/// from each other.
-#[inline(always)]
-fn along(place: Vec3, cos: f32, sin: f32) -> (f32, f32) {
-    (cos * place.y - sin * place.x, 0.57 * (cos * place.x + sin * place.y) - 0.82 * place.z)
+impl OnMap {
+    /// A direction or place among clumps, turned back into the world.
+    #[inline(always)]
+    fn back(&self, v: Vec3) -> Vec3 {
+        turned(v, [self.turn[0], -self.turn[1]])
+    }
 }
 
-/// Clumps about 0.
+/// Where a place lies seen along a way that leans from upright.
 #[inline(always)]
-fn clumps((u, v): (f32, f32), shift: f32, level: NoiseLevel, noise: &NoiseTexture) -> f32 {
-    noise.clumps_at(u + shift, v - shift, level) - 0.5
+fn along(place: Vec3) -> (f32, f32) {
+    (place.y, 0.57 * place.x - 0.82 * place.z)
 }
 
 /// Where a place lies seen along the axis that faces it most.
@@ -356,10 +448,15 @@ mod tests {
     #[test]
     fn leaves_have_no_streaks_on_any_side() {
         let noise = noise_texture(5);
-        let crown = OnMap { middle: Vec3::splat(0.0), tint: Vec3::splat(0.1), through: 1.0, shift: 3.0 };
+        let (half, shrink) = (Vec3::splat(2.0), Vec3::splat(0.5));
+        let crown = OnMap { tint: Vec3::splat(0.1), half, shrink, turn: [0.8, 0.6], through: 1.0, shift: 3.0 };
+        // A place on a clump as large as a hill, seen from straight above it.
         let openness = |world: Vec3, normal: Vec3| {
-            let point = SurfacePoint { world, normal, footprint_m: 0.02, footprints_m: [0.02; 2] };
-            look(&point, &crown, &noise).0.openness
+            let (up, middle) = (turned(normal, crown.turn), turned(normal * -40.0, crown.turn) * 0.5);
+            let from = turned(world + normal, crown.turn) * 0.5;
+            let nearest = NearestClump { reach: 0.5, middle, met: 400.0 };
+            let seen = OnClump { nearest, ray: CrownRay::new(from, up * -1.0), round: normal };
+            look(&seen, &crown, 0.02, 0.0, &noise).0.openness
         };
         // Mean change over a step along a face.
         let change = |normal: Vec3, step: Vec3, across: Vec3| {

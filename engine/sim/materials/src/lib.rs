@@ -11,6 +11,7 @@
 mod boats;
 pub mod building_form;
 pub mod building_forms;
+pub mod clumps;
 mod containers;
 pub mod drawn_shapes;
 pub mod dry_days;

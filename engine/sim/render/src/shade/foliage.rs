@@ -1,4 +1,4 @@
-//! Ragged edges of crowns and bushes in colours: gaps between the outer leaves, through which one sees what lies behind.
+//! Ragged edges of crowns and bushes in colours: gaps between clumps and between outer leaves, through which one sees what lies behind.
 //!
 //! Labels, ids and depth keep the whole crown, as people annotate trees: the gaps between leaves belong to the tree. A gap
 //! shows the picture beyond the edge, mirrored at it; where gaps are follows from places in the world, so that they stay on
@@ -12,14 +12,15 @@ use crate::passes::ids::{CrownSpan, Run, SeenRuns};
 use crate::scene::Scene;
 use cosfly_domain::{FrameImages, SemanticLabel};
 use cosfly_frames::simd_kernel;
+use cosfly_materials::clumps::CrownRays;
 use cosfly_materials::leaves::{LeafCrown, Leaves};
-use cosfly_materials::pattern::{NoiseTexture, Noises, hash, lerp, share, unit};
+use cosfly_materials::pattern::{NoiseTexture, Noises, hash, least, lerp, most, share, unit};
 use cosfly_materials::vector::Vec3;
 
 /// Gaps reach this far into a crown, metres.
-const REACH_M: f32 = 0.6;
+const REACH_M: f32 = 0.8;
 /// Share of a half width that gaps reach at most.
-const REACH_SHARE: f32 = 0.28;
+const REACH_SHARE: f32 = 0.33;
 /// Pixels that gaps reach at most.
 const MOST_PX: f32 = 20.0;
 /// Reach of crowns without leaves, metres.
@@ -32,8 +33,9 @@ const THIN: [f32; 2] = [0.96, 0.78];
 const BARE_THIN: [f32; 2] = [0.05, 0.20];
 /// How fast leaves become a gap as noise grows: edges of leaves are soft, so that no pixel pops.
 const STEEPNESS: f32 = 8.0;
-/// How fast leaves get thin in corners of boxes that stand out of the round crown.
-const CORNER: f32 = 8.0;
+/// How fast leaves get thin beyond clumps, and how much at most; within clumps they are as much denser.
+const BEYOND: f32 = 3.0;
+const MOST_BEYOND: f32 = 0.6;
 /// Pixels whose leaves are looked at together.
 const TOGETHER: usize = 256;
 
@@ -97,6 +99,8 @@ struct Places {
     /// Middles of round crowns, metres, and one divided by half their size.
     middle: [[f32; TOGETHER]; 3],
     shrink: [[f32; TOGETHER]; 3],
+    /// Cosine and sine of how clumps are turned.
+    turn: [[f32; TOGETHER]; 2],
 }
 
 /// An edge of a crown: from the first pixel inside, by steps of `inward` pixels.
@@ -210,6 +214,7 @@ impl Picture<'_> {
             {
                 (rows[0][at], rows[1][at], rows[2][at]) = (v.x, v.y, v.z);
             }
+            (waiting.place.turn[0][at], waiting.place.turn[1][at]) = (outline.turn[0], outline.turn[1]);
             waiting.place.bare[at] = f32::from(u8::from(span.is_bare));
             waiting.place.least[at] = thin[0] + thin[1] * inside;
             waiting.count += 1;
@@ -235,6 +240,7 @@ impl Waiting {
             bare: [0.0; TOGETHER],
             middle: [[0.0; TOGETHER]; 3],
             shrink: [[1.0; TOGETHER]; 3],
+            turn: [[0.0; TOGETHER]; 2],
         },
         gap: [0.0; TOGETHER],
     };
@@ -260,12 +266,17 @@ simd_kernel! {
     /// Share of pixels without leaves. Noise of leaves and of branches stays where it is in the world while the camera moves little.
     fn gaps(places: &Places, view: &View, noise: &NoiseTexture, gap: &mut [f32; TOGETHER]) {
         let view = *view;
+        let (mut rays, mut met) = (CrownRays::EMPTY, [0.0; TOGETHER]);
+        for k in 0..TOGETHER {
+            let [middle, shrink] = [&places.middle, &places.shrink].map(|rows| Vec3::new(rows[0][k], rows[1][k], rows[2][k]));
+            let outline = LeafCrown { middle, shrink, turn: [places.turn[0][k], places.turn[1][k]] };
+            rays.put(k, outline.ray(view.position, view.ray(places.u[k], places.v[k])));
+        }
+        rays.most_met(&mut met);
         for (k, gap) in gap.iter_mut().enumerate() {
             let ray = view.ray(places.u[k], places.v[k]);
-            let [middle, shrink] = [&places.middle, &places.shrink].map(|rows| Vec3::new(rows[0][k], rows[1][k], rows[2][k]));
-            let outline = LeafCrown { middle, shrink };
             let place = view.position + ray * places.depth_m[k];
-            let corner = outline.passed_by(view.position, ray);
+            let beyond = least(most(-BEYOND * met[k], -MOST_BEYOND), MOST_BEYOND);
             // No face of a box is seen edge-on in these two directions.
             let x = 0.8 * place.x + 0.45 * place.y + 0.3 * place.z;
             let y = 0.35 * place.x - 0.7 * place.y + 0.85 * place.z;
@@ -274,7 +285,7 @@ simd_kernel! {
             let branches = noise.clumps(x * 15.0, y * 15.0 + shift, pixel_m * 15.0);
             let twigs = 1.0 * (branches - 0.5).abs() + 0.3 * (leaves - 0.5).abs();
             let thin = lerp(1.7 * branches + 0.75 * leaves, twigs, places.bare[k]);
-            *gap = share((thin + CORNER * corner - places.least[k]) * STEEPNESS);
+            *gap = share((thin + beyond - places.least[k]) * STEEPNESS);
         }
     }
 }

@@ -52,7 +52,7 @@ pub(super) fn run_kernels(
     place(level, shared, stage, &setting.view, light);
     points(level, shared, blocks, stage, &setting.view);
     if let Material::Leaves = material {
-        swell(level, shared, blocks, crowns, setting.view.position, setting.view.pixel());
+        swell(level, shared, crowns, setting.view.position, setting.view.pixel());
     }
     open(level, shared, grid.tables(), &grid.frame(), light.night > 0.0);
     let is_shaded = matches!(material, Material::Ground(_)) && !near.is_empty();
@@ -68,7 +68,7 @@ pub(super) fn run_kernels(
         blocks.iter_mut().for_each(|block| block.sunlight = [0.0; WIDE]);
     } else {
         if let Material::Leaves = material {
-            leaves(level, shared, blocks, crowns, light.to_sun * OFF_CROWN_M, noise);
+            leaves(level, shared, blocks, crowns, setting.view.position, light.to_sun * OFF_CROWN_M, noise);
         }
         setting.shadows.sunlight(level, blocks, !is_bent, noise, near);
     }
@@ -151,8 +151,8 @@ pub(super) fn run_simple_kernels(
         }
         Material::Leaves => {
             points(level, shared, blocks, stage, &setting.view);
-            swell(level, shared, blocks, crowns, setting.view.position, setting.view.pixel());
-            even_leaves(level, blocks, crowns);
+            swell(level, shared, crowns, setting.view.position, setting.view.pixel());
+            even_leaves(level, blocks, crowns, setting.view.position);
             lighting::develop_bent(level, shared, blocks, light, tone);
         }
         Material::Ground(label) => simple::even(level, shared, blocks, simple::ground_colour(*label), tone),
