@@ -44,11 +44,56 @@ def planted(name, source, work, damage):
     shutil.rmtree(copy)
 
 
-def tables(folder, files, change):
-    """Rewrites Parquet files, lists of row dictionaries in and out."""
-    for path in folder.glob(f"data/{files}/*.parquet"):
-        old = parquet.read_table(path)
-        parquet.write_table(pyarrow.Table.from_pylist(change(old.to_pylist()), schema=old.schema), path)
+def tables(change, files="frames", by="trajectory_id"):
+    """Damage of Parquet files: `change` gets the rows of each flight, dictionaries, and changes them in place."""
+
+    def damage(folder):
+        for path in folder.glob(f"data/{files}/*.parquet"):
+            old, flights = parquet.read_table(path), {}
+            rows = old.to_pylist()
+            for row in rows:
+                flights.setdefault(row[by], []).append(row)
+            for flight in flights.values():
+                change(flight)
+            parquet.write_table(pyarrow.Table.from_pylist(rows, schema=old.schema), path)
+
+    return damage
+
+
+def of_lerobot(change):
+    return tables(change, "*", "episode_index")
+
+
+def of_v7(change):
+    """Damage of every trajectory.json: `change` gets its points."""
+
+    def damage(folder):
+        for path in folder.rglob("trajectory.json"):
+            document = json.loads(path.read_text())
+            change(document["points"])
+            path.write_text(json.dumps(document))
+
+    return damage
+
+
+def delayed(names):
+    """The values of the frame before under those names of a row."""
+
+    def change(rows):
+        for before, row in zip([dict(row) for row in rows], rows[1:]):
+            row.update({name: before[name] for name in names(row)})
+
+    return change
+
+
+def added(number, name, first=0):
+    """A number more from a frame on."""
+
+    def change(rows):
+        for row in rows[first:]:
+            row[name] += number
+
+    return change
 
 
 POSE = [f"{whose}_{what}" for whose, whats in (
@@ -58,51 +103,14 @@ POSE = [f"{whose}_{what}" for whose, whats in (
 ) for what in whats] + ["action_in_world"]
 
 
-def pairs_of(rows):
-    """Rows as they were, each with the next one of the same flight, which may be changed."""
-    return [(dict(before), row) for before, row in zip(rows, rows[1:]) if before["trajectory_id"] == row["trajectory_id"]]
-
-
-def shift_frames(rows):
-    """Poses of the frame before beside boxes and images of this one."""
-    for before, row in pairs_of(rows):
-        row.update({name: before[name] for name in POSE})
-    return rows
-
-
-def shift_all(rows):
-    """All numbers of the frame before, consistent with each other and not with the images; experts alone, who fly smoothly."""
-    for before, row in pairs_of(rows):
-        if row["trajectory_id"].startswith("expert"):
-            row.update({name: value for name, value in before.items() if name not in ("frame", "time_s", "preview")})
-    return rows
+def all_of_experts(row):
+    """Shifted together, all numbers agree with each other and not with the images; experts alone, who fly smoothly."""
+    return row.keys() - {"frame", "time_s", "preview"} if row["trajectory_id"].startswith("expert") else ()
 
 
 def flip_yaw(rows):
     for row in rows:
         row["drone_yaw_deg"], row["camera_yaw_deg"] = -row["drone_yaw_deg"], -row["camera_yaw_deg"]
-    return rows
-
-
-def sunk(rows):
-    """Feet half a metre below the drawn ground."""
-    for row in rows:
-        row["target_z_m"] -= 0.5
-    return rows
-
-
-def wrong_actions(rows):
-    """The action of the frame before in every frame."""
-    for before, row in pairs_of(rows):
-        if row["action_in_world"] is not None:
-            row["action_in_world"] = before["action_in_world"]
-    return rows
-
-
-def late(rows):
-    for row in rows:
-        row["time_s"] += 0.2 * (row["frame"] > 9)
-    return rows
 
 
 def lying(rows):
@@ -110,7 +118,6 @@ def lying(rows):
     for row in rows:
         words = row["text"].replace("metres", "m").split(" ")
         row["text"] = " ".join(swap.get(word.strip(",.;"), word) for word in words) + " It walks 900 m."
-    return rows
 
 
 def truncate(folder, files="frames"):
@@ -133,14 +140,6 @@ def leak(folder):
         shutil.copy(path, path.with_name(f"{other}-00007-of-00008.parquet"))
 
 
-def documents(folder, change):
-    """Rewrites every trajectory.json."""
-    for path in folder.rglob("trajectory.json"):
-        document = json.loads(path.read_text())
-        change(document["points"])
-        path.write_text(json.dumps(document))
-
-
 def v7_yaw(points):
     for point in points:
         for pose in (point["drone_pose"], point.get("cosfly", {}).get("camera_pose", {})):
@@ -148,8 +147,7 @@ def v7_yaw(points):
 
 
 def v7_sunk(points):
-    for point in points:
-        point["target"]["world_location"]["z"] -= 0.5
+    added(-0.5, "z")([point["target"]["world_location"] for point in points])
 
 
 def v7_stop(points):
@@ -157,8 +155,7 @@ def v7_stop(points):
 
 
 def v7_waypoints(points):
-    for point in points[:-1]:
-        point["nav_waypoint"]["t1_world"]["x"] += 0.2
+    added(0.2, "x")([point["nav_waypoint"]["t1_world"] for point in points[:-1]])
 
 
 def millimetres(folder):
@@ -175,26 +172,9 @@ def shift_pictures(folder):
                 shutil.copy(source / name, target / name)
 
 
-def lerobot(folder, change):
-    """Rewrites the frames of a LeRobot dataset, episode by episode: lists of row dictionaries, changed in place."""
-    def changed(rows):
-        for number in {row["episode_index"] for row in rows}:
-            change([row for row in rows if row["episode_index"] == number])
-        return rows
-
-    tables(folder, "*", changed)
-
-
-def lerobot_jump(rows):
-    for row in rows[9:]:
-        row["timestamp"] += 0.7
-
-
-def lerobot_actions(rows):
-    """The action of the frame before in every frame."""
-    actions = [row["action"] for row in rows]
-    for action, row in zip(actions, rows[1:]):
-        row["action"] = action
+def repeat_pictures(folder):
+    for frames in folder.rglob("frames_playback"):
+        shutil.copy(frames / "frame_00011/rgb.png", frames / "frame_00012/rgb.png")
 
 
 def lerobot_yaw(rows):
@@ -213,6 +193,10 @@ def lerobot_gap(folder):
     parquet.write_table(pyarrow.concat_tables([table.slice(0, 5), table.slice(6)]), path)
 
 
+def foreign_jump(rows):
+    added(30.0, 0, 30)([row["observation.pose"] for row in rows])
+
+
 def box(kind, body):
     """A box of an MP4 file."""
     return (len(body) + 8).to_bytes(4, "big") + kind + body
@@ -229,23 +213,15 @@ def foreign(folder):
         place, yaw, first = random.normal(size=3) * 20, random.uniform(-3, 3), index
         for frame in range(40):
             speed = numpy.array([3.0 + numpy.sin(frame / 5), 0.4 * numpy.cos(frame / 7), 0.2])
-            rows.append({
-                "observation.pose": [*place, yaw],
-                "action": [*speed, 0.05],
-                "timestamp": frame / rate,
-                "frame_index": frame,
-                "episode_index": number,
-                "index": index,
-                "task_index": 0,
-            })
+            rows.append({"observation.pose": [*place, yaw], "action": [*speed, 0.05], "timestamp": frame / rate,
+                         "frame_index": frame, "episode_index": number, "index": index, "task_index": 0})
             cos, sin = numpy.cos(yaw), numpy.sin(yaw)
             place = place + numpy.array([[cos, -sin, 0], [sin, cos, 0], [0, 0, 1]]) @ speed / rate
             yaw, index = yaw + 0.05 / rate, index + 1
         episodes.append({
             "episode_index": number, "length": 40, "tasks": ["follow"], "dataset_from_index": first, "dataset_to_index": index,
             "videos/observation.images.front/chunk_index": 0, "videos/observation.images.front/file_index": 0,
-            "videos/observation.images.front/from_timestamp": first / rate,
-            "videos/observation.images.front/to_timestamp": index / rate,
+            "videos/observation.images.front/from_timestamp": first / rate, "videos/observation.images.front/to_timestamp": index / rate,
         })
     vector = lambda names: {"dtype": "float64", "shape": [len(names)], "names": {"axes": names}}
     info = {
@@ -269,47 +245,25 @@ def foreign(folder):
     (folder / VIDEO).write_bytes(box(b"ftyp", b"isom") + box(b"mdat", bytes(4000)) + moov)
 
 
-def foreign_jump(rows):
-    for row in rows[30:]:
-        row["observation.pose"][0] += 30.0
-
-
-def repeat_pictures(folder):
-    for frames in folder.rglob("frames_playback"):
-        shutil.copy(frames / "frame_00011/rgb.png", frames / "frame_00012/rgb.png")
-
-
-def each(change, files="frames"):
-    """A change of tables of a dataset of cosfly."""
-    return lambda folder: tables(folder, files, change)
-
-
-def of_v7(change):
-    return lambda folder: documents(folder, change)
-
-
-def of_lerobot(change):
-    return lambda folder: lerobot(folder, change)
-
-
+NOTHING = {None: lambda folder: None}
+OF_LEROBOT = {"timestamps": of_lerobot(added(0.7, "timestamp", 9)), "action-mismatch": of_lerobot(delayed(lambda _: ["action"]))}
 PLANTS = {
     "dataset": {
-        None: lambda folder: None, "frame-shift": each(shift_frames), "image-shift": each(shift_all), "yaw-sign": each(flip_yaw),
-        "action-mismatch": each(wrong_actions), "below-ground": each(sunk), "timestamps": each(late),
-        "caption-mismatch": each(lying, "captions"), "parquet-damaged": truncate, "log-damaged": flip_byte, "split-leak": leak,
+        "frame-shift": tables(delayed(lambda _: POSE)), "image-shift": tables(delayed(all_of_experts)), "yaw-sign": tables(flip_yaw),
+        "action-mismatch": tables(delayed(lambda row: ["action_in_world"] if row["action_in_world"] is not None else [])),
+        "below-ground": tables(added(-0.5, "target_z_m")), "timestamps": tables(added(0.2, "time_s", 10)),
+        "caption-mismatch": tables(lying, "captions"), "parquet-damaged": truncate, "log-damaged": flip_byte, "split-leak": leak,
     },
     "v7": {
-        None: lambda folder: None, "yaw-sign": of_v7(v7_yaw), "below-ground": of_v7(v7_sunk), "timestamps": of_v7(v7_stop),
-        "action-mismatch": of_v7(v7_waypoints), "depth-unit": millimetres, "image-shift": shift_pictures, "duplicate-frames": repeat_pictures,
+        "yaw-sign": of_v7(v7_yaw), "below-ground": of_v7(v7_sunk), "timestamps": of_v7(v7_stop), "action-mismatch": of_v7(v7_waypoints),
+        "depth-unit": millimetres, "image-shift": shift_pictures, "duplicate-frames": repeat_pictures,
     },
     "lerobot": {
-        None: lambda folder: None, "timestamps": of_lerobot(lerobot_jump), "action-mismatch": of_lerobot(lerobot_actions),
-        "yaw-sign": of_lerobot(lerobot_yaw), "duplicate-frames": of_lerobot(lerobot_repeated), "index-mismatch": lerobot_gap,
+        **OF_LEROBOT, "yaw-sign": of_lerobot(lerobot_yaw), "duplicate-frames": of_lerobot(lerobot_repeated), "index-mismatch": lerobot_gap,
         "parquet-damaged": lambda folder: truncate(folder, "*"),
     },
     "foreign": {
-        None: lambda folder: None, "timestamps": of_lerobot(lerobot_jump), "action-mismatch": of_lerobot(lerobot_actions),
-        "pose-jump": of_lerobot(foreign_jump), "video-missing": lambda folder: (folder / VIDEO).unlink(),
+        **OF_LEROBOT, "pose-jump": of_lerobot(foreign_jump), "video-missing": lambda folder: (folder / VIDEO).unlink(),
         "video-damaged": lambda folder: (folder / VIDEO).write_bytes((folder / VIDEO).read_bytes()[:-40]),
     },
 }
@@ -322,7 +276,7 @@ with tempfile.TemporaryDirectory() as place:
     of_one_split = next(path for path in sorted((work / "lerobot").iterdir()) if path.is_dir())
     for layout, plants in PLANTS.items():
         source = {"dataset": dataset, "lerobot": of_one_split}.get(layout, work / layout)
-        for name, damage in plants.items():
+        for name, damage in (NOTHING | plants).items():
             planted(name, source, work, damage)
 
 sys.exit(f"missed: {failures}" if failures else 0)
