@@ -1,9 +1,12 @@
 """What several of these scripts need: tables, logs, rotations, runs of programs. Shares no code with cosfly."""
 
+import argparse
+import hashlib
 import json
 import re
 import subprocess
 import sys
+import tempfile
 from collections import defaultdict
 from pathlib import Path
 
@@ -13,6 +16,22 @@ COLOURS = "black grey white red orange yellow green blue purple pink brown beige
 IN_CHINESE = dict(zip(COLOURS, "黑色 灰色 白色 红色 橙色 黄色 绿色 蓝色 紫色 粉色 棕色 米色".split()))
 # Kinds of a number and numbers of a pixel.
 ENCODINGS = {"mono8": ("u1", 1), "rgb8": ("u1", 3), "16UC1": ("<u2", 1), "32UC1": ("<u4", 1), "32FC1": ("<f4", 1), "32FC2": ("<f4", 2)}
+
+
+def command_line(places, **options):
+    """Arguments of a script: `places` names files and folders, with a + for several; options have a default or a kind, in a list where several are given."""
+    parser = argparse.ArgumentParser(description=sys.modules["__main__"].__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    for name in places.split():
+        parser.add_argument(name.rstrip("+"), type=Path, nargs="+" if name.endswith("+") else None)
+    for name, default in options.items():
+        one = default[0] if isinstance(default, list) else default
+        more = {"type": one} if isinstance(one, type) else {"type": type(one), "default": default}
+        if isinstance(default, list):
+            more["nargs"] = "+"
+        if default is False:
+            more = {"action": "store_true"}
+        parser.add_argument(f"--{name.replace('_', '-')}", **more)
+    return parser.parse_args()
 
 
 def require(condition, message):
@@ -39,6 +58,33 @@ def run(*command, code=0, **options):
     done = subprocess.run([str(part) for part in command], **options)
     require(done.returncode == code, f"{' '.join(map(str, command))}: exit code {done.returncode}\n{done.stdout[-2000:]}{(done.stderr or '')[-2000:]}")
     return done.stdout
+
+
+def json_lines(path):
+    return list(map(json.loads, Path(path).read_text(encoding="utf-8").splitlines()))
+
+
+def bytes_of(folder):
+    """Digests of all files of a folder by name."""
+    files = sorted(path for path in Path(folder).rglob("*") if path.is_file())
+    return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest() for path in files}
+
+
+def program(path, text):
+    """A script of the shell that can be called."""
+    path.write_text(f"#!/bin/sh\n{text}\n")
+    path.chmod(0o755)
+
+
+def imported_by_rerun(log, *words):
+    """The importer of Rerun knows the types of a log: what it prints of it has these words."""
+    rerun = Path(sys.executable).with_name("rerun")
+    run(rerun, "analytics", "disable")
+    with tempfile.TemporaryDirectory() as scratch:
+        run(rerun, "mcap", "convert", log, "-o", f"{scratch}/bag.rrd")
+        printed = run(rerun, "rrd", "print", "-vv", f"{scratch}/bag.rrd")
+    require(all(word in printed for word in words), f"Rerun finds not all of {words} in {log}")
+    said("Rerun imports", ", ".join(words))
 
 
 def json_of(*command, **options):
@@ -174,6 +220,11 @@ def ground_of_boxes(boxes, offset=(0, 0), mirror=1):
         (x, y, _), (a, b, _), cos, sin = box["center_m"], box["half_m"], np.cos(box["yaw_rad"]), np.sin(box["yaw_rad"])
         corners = [(a, b), (-a, b), (-a, -b), (a, -b)]
         yield Polygon([(x + offset[0] + cos * u - sin * v, mirror * (y + offset[1] + sin * u + cos * v)) for u, v in corners])
+
+
+def overlap(a, b):
+    """Intersection over union of two shapes of shapely."""
+    return a.intersection(b).area / a.union(b).area
 
 
 def is_in(outline, x, y):
