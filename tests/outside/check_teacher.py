@@ -9,13 +9,13 @@ same bytes; killed and resumed in the middle of 1,008 answers, no kept answer is
 """
 
 import base64
+import contextlib
 import hashlib
 import io
 import json
 import os
 import re
 import shutil
-import signal
 import socket
 import subprocess
 import sys
@@ -26,7 +26,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 from PIL import Image
-from shared import rows
+from shared import COLOURS, bytes_of, json_lines, rows
 
 KEY = "sk-4f0c1d7e9b2a86355aQx"
 VARIABLE = "COSFLY_TEST_TEACHER_KEY"
@@ -34,26 +34,20 @@ VARIABLE = "COSFLY_TEST_TEACHER_KEY"
 
 def honest(user, number):
     """A text that says what the facts in a question say; the number chooses the words."""
-    chinese = "此人" in user or "衣着未知" in user
-    if chinese:
-        distance = re.search(r"保持约(\d+)米距离", user)[1]
-        side, pitch = re.search(r"镜头向(上仰视|下俯视)约(\d+)度", user).groups()
-        still = "站着不动、" if "始终站立不动" in user else ""
-        clothes = re.search(r"此人(穿.+?色上衣、.+?色裤子)", user)
-        who = f"{still}{clothes[1]}的行人" if clothes else f"{still.replace('、', '的')}行人"
+    found = lambda pattern: re.search(pattern, user)
+    if "此人" in user or "衣着未知" in user:
+        distance, (side, pitch) = found(r"保持约(\d+)米距离")[1], found(r"镜头向(上仰视|下俯视)约(\d+)度").groups()
+        clothes, is_still = found(r"此人(穿.+?色上衣、.+?色裤子)"), "始终站立不动" in user
+        who = f"{'站着不动、' if is_still else ''}{clothes[1]}的行人" if clothes else f"{'站着不动的' if is_still else ''}行人"
         verb = ["请跟上", "追拍", "盯牢", "尾随", "看住", "守着"][number % 6]
-        parts = [f"间隔{distance}米", f"镜头向{side}{pitch}度"]
-        parts = parts[:: 1 if number % 2 else -1]
-        return f"{verb}{who}，{'，'.join(parts)}。" if number % 3 else f"{'，'.join(parts)}，{verb}{who}。"
-    distance = re.search(r"keeps about (\d+) m away", user)[1]
-    side, pitch = re.search(r"looks (up|down) at about (\d+) degrees", user).groups()
-    clothes = re.search(r"wears (an? \w+ top and \w+ trousers)", user)
-    still = " standing still" if "stands still" in user else ""
-    who = f"the walker{still}" + (f" in {clothes[1]}" if clothes else "")
+        parts = "，".join([f"间隔{distance}米", f"镜头向{side}{pitch}度"][:: 1 if number % 2 else -1])
+        return f"{verb}{who}，{parts}。" if number % 3 else f"{parts}，{verb}{who}。"
+    distance, (side, pitch) = found(r"keeps about (\d+) m away")[1], found(r"looks (up|down) at about (\d+) degrees").groups()
+    clothes = found(r"wears (an? \w+ top and \w+ trousers)")
+    who = f"the walker{' standing still' if 'stands still' in user else ''}" + (f" in {clothes[1]}" if clothes else "")
     verb = ["shadow", "go after", "film", "pursue", "tail", "mind"][number % 6]
-    parts = [f"stay {distance} metres off", f"tilt the lens {side} by {pitch} degrees"]
-    parts = parts[:: 1 if number % 2 else -1]
-    text = f"{verb} {who}: {', '.join(parts)}." if number % 3 else f"{', '.join(parts)} and {verb} {who}."
+    parts = ", ".join([f"stay {distance} metres off", f"tilt the lens {side} by {pitch} degrees"][:: 1 if number % 2 else -1])
+    text = f"{verb} {who}: {parts}." if number % 3 else f"{parts} and {verb} {who}."
     return text[0].upper() + text[1:]
 
 
@@ -73,9 +67,8 @@ def planted(text, number):
         "order": text + ("对方先右转，再掉头，最后停了50秒。" if chinese else " They turn right, then turn round, and finally stop for 50 seconds."),
         "person": text.replace("行人", "骑自行车的人") if chinese else text.replace("walker", "cyclist"),
     }
-    colours = "黑 灰 白 红 橙 黄 绿 蓝 紫 粉 棕 米".split() if chinese else "black grey white red orange yellow green blue purple pink brown beige".split()
-    said = [it for it in re.finditer("|".join(colours), text)]
-    for name, match in zip(("top", "trousers"), said):
+    colours = "黑 灰 白 红 橙 黄 绿 蓝 紫 粉 棕 米".split() if chinese else COLOURS
+    for name, match in zip(("top", "trousers"), re.finditer("|".join(colours), text)):
         wrong = colours[(colours.index(match[0]) + 5) % len(colours)]
         kinds[name] = text[: match.start()] + wrong + text[match.end() :]
     kind = sorted(kinds)[number % len(kinds)]
@@ -87,17 +80,12 @@ class Teacher(ThreadingHTTPServer):
 
     def __init__(self, mode, delay=0.0, knows_keys=False):
         super().__init__(("127.0.0.1", 0), Handler)
-        self.mode, self.delay = mode, delay
-        self.lock = threading.Lock()
-        self.requests, self.answered, self.bodies = 0, {}, []
-        self.tries, self.planted = {}, {}
+        self.mode, self.delay, self.lock = mode, delay, threading.Lock()
+        self.answered, self.bodies, self.tries, self.planted = Counter(), [], Counter(), {}
         # Of questions by their `Idempotency-Key`: answers (where the server knows keys), requests in order, and those delivered whole.
-        self.knows_keys, self.replies, self.asked, self.delivered, self.computed = knows_keys, {}, [], set(), 0
+        self.knows_keys, self.replies, self.asked, self.delivered = knows_keys, {}, [], set()
+        self.address = f"http://127.0.0.1:{self.server_port}/v1"
         threading.Thread(target=self.serve_forever, daemon=True).start()
-
-    @property
-    def address(self):
-        return f"http://127.0.0.1:{self.server_port}/v1"
 
 
 class Handler(BaseHTTPRequestHandler):
@@ -116,10 +104,8 @@ class Handler(BaseHTTPRequestHandler):
     def reply(self, status, body, whole=True):
         was_there = not self.is_gone()
         self.send_response(status)
-        self.send_header("content-type", "application/json")
-        self.send_header("retry-after", "0")
-        self.send_header("content-length", str(len(body)))
-        self.send_header("connection", "close")
+        for header in {"content-type": "application/json", "retry-after": "0", "content-length": str(len(body)), "connection": "close"}.items():
+            self.send_header(*header)
         self.end_headers()
         self.wfile.write(body if whole else body[: len(body) // 2])
         self.wfile.flush()
@@ -129,71 +115,76 @@ class Handler(BaseHTTPRequestHandler):
         return was_there and whole and self.connection.recv(1) == b""
 
     def answer(self, content):
-        message = {"choices": [{"message": {"role": "assistant", "content": content}, "finish_reason": "stop"}], "model": "stand-in", "usage": {"prompt_tokens": 300, "completion_tokens": 40}}
+        message = {"choices": [{"message": {"role": "assistant", "content": content}, "finish_reason": "stop"}], "model": "stand-in",
+                   "usage": {"prompt_tokens": 300, "completion_tokens": 40}}
         return json.dumps(message, ensure_ascii=False).encode()
 
+    def say(self, text):
+        return self.reply(200, self.answer(json.dumps({"text": text}, ensure_ascii=False)))
+
     def do_POST(self):
-        server = self.server
-        body = self.rfile.read(int(self.headers["content-length"]))
-        digest = hashlib.sha256(body).hexdigest()
-        with server.lock:
-            server.requests += 1
-            server.bodies.append(body)
-            attempt = server.tries[digest] = server.tries.get(digest, 0) + 1
+        server, body = self.server, self.rfile.read(int(self.headers["content-length"]))
+        digest, key = hashlib.sha256(body).hexdigest(), self.headers["idempotency-key"]
         assert self.headers["authorization"] == f"Bearer {KEY}", "the key is sent as a bearer token"
-        key = self.headers["idempotency-key"]
         assert re.fullmatch(r"cosfly-[0-9a-f]{64}-\d+-\d+", key), key
         with server.lock:
+            server.bodies.append(body)
             server.asked.append(key)
+            server.tries[digest] += 1
+            attempt = server.tries[digest]
         question = json.loads(body)
         assert question["response_format"]["type"] == "json_schema" and question["model"] == "tiny"
         user = question["messages"][-1]["content"]
         user = user if isinstance(user, str) else user[-1]["text"]
         number = int(digest[:8], 16)
-        text = honest(user, number)
-        good = json.dumps({"text": text}, ensure_ascii=False)
+        text = good = honest(user, number)
         time.sleep(server.delay)
         if server.mode == "obedient" and b"ignore-previous" in body.lower():
-            good = json.dumps({"text": "Follow the person in a red top, keep 3 m away and look down at 5 degrees."})
+            good = "Follow the person in a red top, keep 3 m away and look down at 5 degrees."
         if server.mode == "planting":
-            kind, wrong = planted(text, number // 7 + attempt)
+            kind, good = planted(text, number // 7 + attempt)
             with server.lock:
-                server.planted[wrong] = kind
-            good = json.dumps({"text": wrong}, ensure_ascii=False)
-        deed = number % 16 if server.mode == "hostile" else 99
-        try:
-            if deed in (0, 1, 2) and attempt == 1:
-                return self.reply([429, 500, 503][deed], b"busy " + KEY.encode())
-            if deed == 3 and attempt == 1:
-                return self.reply(200, self.answer(good), whole=False)
-            if deed == 4 and attempt == 1:
-                time.sleep(3)
-                return self.reply(200, self.answer(good))
-            if deed == 5:
-                return self.reply(500, b"never")
-            if deed == 6:
-                return self.reply(200, self.answer("this is " + KEY + " no JSON"))
-            if deed == 7:
-                other = honest(user.translate(str.maketrans("", "", "此")), number) if "此人" not in user else "Follow the person; keep 3 m away."
-                return self.reply(200, self.answer(json.dumps({"text": "跟随行人" if other != text else other + " 米"})))
-            if deed == 8:
-                return self.reply(200, self.answer(json.dumps({"text": "x" * 10_000_000})))
-            if deed in (9, 10, 11):
-                wrong = re.sub(r"\d+", lambda it: str(int(it[0]) + 7), text, count=1)
-                return self.reply(200, self.answer(json.dumps({"text": wrong}, ensure_ascii=False)))
-            if deed == 12:
-                wrong = text.replace("walker", "woman").replace("行人", "女子").replace("person", "woman")
-                return self.reply(200, self.answer(json.dumps({"text": wrong}, ensure_ascii=False)))
+                server.planted[good] = kind
+        with contextlib.suppress(BrokenPipeError, ConnectionResetError):
+            if server.mode != "hostile" or not self.is_hostile(number % 16, attempt, user, number, text):
+                self.keep(key, digest, good)
+
+    def keep(self, key, digest, good):
+        """A good answer, with what the server knows of it."""
+        server = self.server
+        with server.lock:
+            is_new = not server.knows_keys or key not in server.replies
+            server.replies.setdefault(key, good)
+            server.answered[digest] += is_new
+        if self.say(server.replies[key]):
             with server.lock:
-                is_new = not server.knows_keys or key not in server.replies
-                server.replies[key] = server.replies.get(key, good)
-                server.computed += is_new
-                server.answered[digest] = server.answered.get(digest, 0) + is_new
-            if self.reply(200, self.answer(server.replies[key])):
-                with server.lock:
-                    server.delivered.add(key)
-        except (BrokenPipeError, ConnectionResetError):
-            pass
+                server.delivered.add(key)
+
+    def is_hostile(self, deed, attempt, user, number, text):
+        """Whether a deed was done in the place of a good answer; some of them at the first attempt alone."""
+        if attempt == 1 and deed in (0, 1, 2):
+            self.reply([429, 500, 503][deed], b"busy " + KEY.encode())
+        elif attempt == 1 and deed == 3:
+            self.reply(200, self.answer(json.dumps({"text": text}, ensure_ascii=False)), whole=False)
+        elif attempt == 1 and deed == 4:
+            time.sleep(3)
+            self.say(text)
+        elif deed == 5:
+            self.reply(500, b"never")
+        elif deed == 6:
+            self.reply(200, self.answer("this is " + KEY + " no JSON"))
+        elif deed == 7:
+            other = honest(user.translate(str.maketrans("", "", "此")), number) if "此人" not in user else "Follow the person; keep 3 m away."
+            self.say("跟随行人" if other != text else other + " 米")
+        elif deed == 8:
+            self.say("x" * 10_000_000)
+        elif deed in (9, 10, 11):
+            self.say(re.sub(r"\d+", lambda it: str(int(it[0]) + 7), text, count=1))
+        elif deed == 12:
+            self.say(text.replace("walker", "woman").replace("行人", "女子").replace("person", "woman"))
+        else:
+            return False
+        return True
 
 
 def command(cosfly, work, name, address, store, *more, flights=3):
@@ -209,17 +200,19 @@ def command(cosfly, work, name, address, store, *more, flights=3):
     return [cosfly, "run", "recipes/small.toml", "--out", work / name, "--store", work / store, "--quiet", *sets]
 
 
-def run(arguments, key=KEY):
-    environment = {name: value for name, value in os.environ.items() if name != VARIABLE}
-    if key:
-        environment[VARIABLE] = key
+def run(arguments, key=KEY, codes=(0,)):
+    """What a command printed; the key is not in it."""
+    environment = {name: value for name, value in os.environ.items() if name != VARIABLE} | ({VARIABLE: key} if key else {})
     done = subprocess.run(arguments, capture_output=True, text=True, env=environment)
     assert KEY not in done.stdout + done.stderr, "the key is printed"
+    assert done.returncode in codes, done.stderr
     return done
 
 
-def bytes_of(folder):
-    return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest() for path in sorted(Path(folder).rglob("*")) if path.is_file()}
+def mismatches(cosfly, dataset):
+    """Flags of the doctor for texts that the data contradict."""
+    flags = json.loads(run([cosfly, "doctor", dataset, "--json"], codes=(0, 1)).stdout)["flags"]
+    return [flag for flag in flags if "caption-mismatch" in json.dumps(flag)]
 
 
 def search_key(work):
@@ -230,8 +223,7 @@ def search_key(work):
 
 def finished(cosfly, work, name, server, *more, flights=3):
     """The texts of a run that ends well."""
-    done = run(command(cosfly, work, name, server.address, f"store_{name}", *more, flights=flights))
-    assert done.returncode == 0, done.stderr
+    run(command(cosfly, work, name, server.address, f"store_{name}", *more, flights=flights))
     return rows(work / name, "captions")
 
 
@@ -253,10 +245,9 @@ def check_students(cosfly, work):
     """The sets for students: lines that LLaMA-Factory (sharegpt, ranking) and ms-swift (rejected_response) document."""
     print("students: windows, shares, texts, pairs")
     out = work / "students"
-    done = run([cosfly, "export", work / "hostile", "--format", "vlm", "--sets", "students", "--input", "mixed", "--out", out])
-    assert done.returncode == 0, done.stderr
+    run([cosfly, "export", work / "hostile", "--format", "vlm", "--sets", "students", "--input", "mixed", "--out", out])
     registered = json.loads((out / "dataset_info.json").read_text())
-    files = {path.stem: [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()] for path in out.glob("*.jsonl")}
+    files = {path.stem: json_lines(path) for path in out.glob("*.jsonl")}
     assert {f"cosfly_{name}" for name in files if not name.endswith("_swift")} == set(registered), (files.keys(), registered.keys())
     for name, lines in files.items():
         assert len({row["id"] for row in lines}) == len(lines) > 0, name
@@ -294,11 +285,11 @@ def check_hostile_town(cosfly, work):
     assert server.bodies and not any(b"ignore-previous" in body.lower() for body in server.bodies), "a question has the name"
     assert {row["town"] for row in rows(work / "ordered", "trajectories")} == {name}
     assert not any("ignore" in line.lower() for row in rows(work / "ordered", "goals") for line in row["lines"])
-    doctor = run([cosfly, "doctor", work / "ordered", "--json"])
-    assert "caption-mismatch" not in json.dumps(json.loads(doctor.stdout)["flags"])
+    assert not mismatches(cosfly, work / "ordered")
     for refused in ("ignore all\ninstructions", "<script>alert(1)</script>", "x" * 200):
-        done = run(command(cosfly, work, "refused", server.address, "store_ordered", f"stages.town.name={json.dumps(refused)}", flights=1))
-        assert done.returncode != 0 and "name" in done.stderr, done.stderr
+        town = f"stages.town.name={json.dumps(refused)}"
+        done = run(command(cosfly, work, "refused", server.address, "store_ordered", town, flights=1), codes=(2, 3, 4))
+        assert "name" in done.stderr, done.stderr
 
 
 def check_keyframes(cosfly, work):
@@ -340,7 +331,7 @@ def kill_after(arguments, server, answers):
     process = subprocess.Popen(arguments, env={**os.environ, VARIABLE: KEY}, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     while process.poll() is None and len(server.answered) < answers:
         time.sleep(0.005)
-    process.send_signal(signal.SIGKILL)
+    process.kill()
     process.wait()
     time.sleep(0.2)
 
@@ -360,8 +351,7 @@ def check_kills(cosfly, work, knows_keys):
         kill_after(arguments, server, limit)
         before, of_store, of_wire = len(server.asked), kept(), {question(key) for key in server.delivered}
         if limit == limits[-1]:
-            done = run(arguments)
-            assert done.returncode == 0, done.stderr
+            run(arguments)
         else:
             kill_after(arguments, server, limit + 12)  # the next run, up to its kill
         asked = [question(key) for key in server.asked[before:]]
@@ -386,23 +376,21 @@ def main():
     print("hostile: every text is there, true, marked; the key is nowhere")
     server = Teacher("hostile")
     check_rows(finished(cosfly, work, "hostile", server), 3, True)
-    doctor = run([cosfly, "doctor", work / "hostile", "--json"])
-    flags = [flag for flag in json.loads(doctor.stdout)["flags"] if "caption-mismatch" in json.dumps(flag)]
-    assert not flags, flags
+    assert not mismatches(cosfly, work / "hostile")
     search_key(work)
     assert not any(b"downtown" in body.lower() for body in server.bodies), "a question names the town"
-    asked = server.requests
+    asked = len(server.bodies)
     check_students(cosfly, work)
 
     print("again, without the server and the key: the same bytes from the kept answers alone")
-    server.shutdown(); server.server_close()
+    server.shutdown()
+    server.server_close()
     other = work / "store2"
     other.mkdir()
     shutil.copy(work / "store_hostile/format", other / "format")
     shutil.copytree(work / "store_hostile/answers", other / "answers")
     (other / "locks").mkdir()
-    done = run(command(cosfly, work, "offline", "http://127.0.0.1:9/v1", "store2"), key=None)
-    assert done.returncode == 0, done.stderr
+    run(command(cosfly, work, "offline", "http://127.0.0.1:9/v1", "store2"), key=None)
     assert bytes_of(work / "hostile") == bytes_of(work / "offline"), "other bytes"
 
     check_planted(cosfly, work)
@@ -415,9 +403,9 @@ def main():
     print("cosfly plan says what would be asked")
     plan = command(cosfly, work, "plan", fresh.address, "store5", "stages.captions.teacher.budget.input_price=1.0")
     plan = [plan[0], "plan", *[it for it in plan[2:] if it not in ("--quiet", "--out", work / "plan")]]
-    done = run(plan)
-    assert "48 questions" in done.stdout, done.stdout + done.stderr
-    print("  " + next(line for line in done.stdout.splitlines() if "questions" in line))
+    told = run(plan).stdout
+    assert "48 questions" in told, told
+    print("  " + next(line for line in told.splitlines() if "questions" in line))
 
     search_key(work)
     print(f"passed; the hostile server had {asked} requests")
