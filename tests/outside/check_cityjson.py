@@ -9,13 +9,12 @@ the roofs that reach over it one of at least 0.97, and its lowest and highest po
 """
 
 import json
-import statistics
 import sys
 
 import numpy as np
 from shapely import STRtree, make_valid, union_all
 from shapely.geometry import Polygon
-from shared import ground_of_boxes, json_of
+from shared import ground_of_boxes, json_of, overlap
 
 
 def faces_of(geometry):
@@ -98,30 +97,23 @@ def check_buildings(name, source, town):
     things = list(things_of(town, "Building"))
     assert len(truth) == len(things), f"{name}: {len(truth)} buildings in the file, {len(things)} in the town"
     tree = STRtree([plan for plan, *_ in things])
-    overlaps, plans, lows, highs, missing = [], [], [], [], []
+    found, missing = [], []
     for identity, footprint, whole, low, high in truth:
-        best = (0.0, -1)
-        for index in tree.query(footprint, "intersects"):
-            plan = things[index][0]
-            best = max(best, (plan.intersection(footprint).area / plan.union(footprint).area, int(index)))
-        if best[1] < 0:
+        share, best = max(((overlap(things[at][0], footprint), at) for at in tree.query(footprint, "intersects")), default=(0.0, None))
+        if best is None:
             missing.append(identity)
-            continue
-        overlaps.append(best[0])
-        plan = things[best[1]][0]
-        plans.append(plan.intersection(whole).area / plan.union(whole).area)
-        lows.append(things[best[1]][1] - low)
-        highs.append(things[best[1]][2] - high)
+        else:
+            found.append((share, overlap(things[best][0], whole), things[best][1] - low, things[best][2] - high))
+    overlaps, plans, lows, highs = np.array(found).T
     boxes = sum(count for *_, count in things)
     print(
-        f"{name}: {len(truth)} buildings, {boxes} boxes; footprints: median {statistics.median(overlaps):.3f}, "
-        f"least {min(overlaps):.3f}; with roofs: median {statistics.median(plans):.3f}, least {min(plans):.3f}; base {statistics.median(lows):+.3f} m, top {statistics.median(highs):+.3f} m"
+        f"{name}: {len(truth)} buildings, {boxes} boxes; footprints: median {np.median(overlaps):.3f}, least {min(overlaps):.3f}; "
+        f"with roofs: median {np.median(plans):.3f}, least {min(plans):.3f}; base {np.median(lows):+.3f} m, top {np.median(highs):+.3f} m"
     )
-    off = [i for i in range(len(highs)) if abs(highs[i]) > 0.3 or abs(lows[i]) > 0.3]
+    off = np.mean((np.abs(highs) > 0.3) | (np.abs(lows) > 0.3))
     assert not missing, f"{name}: no boxes at {missing[:5]}"
-    assert statistics.median(overlaps) >= 0.9, f"{name}: {statistics.median(overlaps)}"
-    assert statistics.median(plans) >= 0.97, f"{name}: {statistics.median(plans)} with the roofs"
-    assert len(off) <= 0.02 * len(highs), f"{name}: {len(off)} buildings are too high or low"
+    assert np.median(overlaps) >= 0.9 and np.median(plans) >= 0.97, f"{name}: {np.median(overlaps)}, {np.median(plans)} with the roofs"
+    assert off <= 0.02, f"{name}: {off:.3f} of the buildings are too high or low"
 
 
 def check_ground(name, source, town):
@@ -135,19 +127,12 @@ def check_ground(name, source, town):
         found = union_all([make_valid(Polygon([(x + offset[0], -(y + offset[1])) for x, y, _ in it])) for it in outlines])
         if truth.area == 0.0:
             continue
-        overlap = truth.intersection(found).area / truth.union(found).area
-        print(f"{name}: {kind} {truth.area:.0f} m2, intersection over union {overlap:.3f}")
-        assert overlap > 0.97, f"{name}: {kind} {overlap}"
-
-
-def main():
-    inspect, *paths = sys.argv[1:]
-    for path in paths:
-        town = json_of(inspect, path)
-        source, name = Source(path), path.rsplit("/", 1)[-1]
-        check_buildings(name, source, town)
-        check_ground(name, source, town)
+        print(f"{name}: {kind} {truth.area:.0f} m2, intersection over union {overlap(truth, found):.3f}")
+        assert overlap(truth, found) > 0.97, f"{name}: {kind} {overlap(truth, found)}"
 
 
 if __name__ == "__main__":
-    main()
+    for path in sys.argv[2:]:
+        described = path.rsplit("/", 1)[-1], Source(path), json_of(sys.argv[1], path)
+        check_buildings(*described)
+        check_ground(*described)

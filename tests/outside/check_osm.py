@@ -10,7 +10,7 @@ import math
 import statistics
 import sys
 import tempfile
-from collections import Counter
+from collections import Counter, defaultdict
 from pathlib import Path
 
 import numpy
@@ -18,7 +18,7 @@ import osmium
 from pyproj import Proj
 from shapely import Point, Polygon, STRtree, distance, get_coordinates, points, transform, wkb
 from shapely.ops import unary_union
-from shared import ground_of_boxes, json_of
+from shared import ground_of_boxes, json_of, overlap
 
 STOREY_M = 3.0
 BUILDING_MARGIN_M = 1000.0
@@ -58,9 +58,8 @@ def rows(path):
                 known = [(node.ref, (node.lon, node.lat)) if node.location.valid() else None for node in one.nodes]
                 paths += [pair for pair in zip(known, known[1:]) if None not in pair]
         elif one.is_area() and any(tags.get(key, "no") != "no" for key in ("building", "building:part")):
-            shape = wkb.loads(factory.create_multipolygon(one), hex=True)
-            kind = "way" if one.from_way() else "relation"
-            areas += [(f"{kind} {one.orig_id()}", tags, polygon) for polygon in shape.geoms]
+            name = f"{'way' if one.from_way() else 'relation'} {one.orig_id()}"
+            areas += [(name, tags, polygon) for polygon in wkb.loads(factory.create_multipolygon(one), hex=True).geoms]
     ends = {ref for ref, count in arms.items() if count == 1 and ref in streets and ref not in crossings}
     return areas, [[(place, ref in ends) for ref, place in pair] for pair in paths], points
 
@@ -103,12 +102,11 @@ def is_kept(tags):
 
 
 def stated_top_m(tags):
+    levels = number(tags.get("building:levels"))
     if number(tags.get("height")):
         return number(tags["height"])
-    if "height" not in tags and "est_height" not in tags and "building:height" not in tags:
-        levels = number(tags.get("building:levels"))
-        if levels and not any(key.startswith("roof:") for key in tags):
-            return levels * STOREY_M
+    if levels and not any(key in ("height", "est_height", "building:height") or key.startswith("roof:") for key in tags):
+        return levels * STOREY_M
     return None
 
 
@@ -151,36 +149,35 @@ class Town:
         objects = len({box["object"] for box in boxes})
         assert abs(objects - expected) <= max(2, 0.01 * expected), f"{self.name}: {objects} buildings, the file has {expected}"
 
-        of_parent = {}
+        of_parent, overlaps, heights = defaultdict(list), [], []
         for part, own in zip(parts, parents):
             for parent in own:
-                of_parent.setdefault(parent, []).append(part)
-        overlaps, heights = [], []
+                of_parent[parent].append(part)
         for number_, (name, tags, shape) in enumerate(outlines):
-            own = of_parent.get(number_, [])
+            own = of_parent[number_]
             covered = unary_union([part for _, _, part in own]).intersection(shape).area / shape.area if own else 0.0
             if covered < 0.4 or not own:
                 overlaps.append((self.overlap(shape, shapes, index, boxes), name))
                 heights += self.height(name, tags, shape, shapes, index, boxes) if not own else []
         for name, tags, shape in parts:
             heights += self.height(name, tags, shape, shapes, index, boxes)
-        if overlaps:
-            median = statistics.median(value for value, _ in overlaps)
-            assert median >= 0.9, f"{self.name}: median overlap {median:.3f}, worst {sorted(overlaps)[:5]}"
+        median = lambda values: statistics.median(values) if values else math.nan
+        middle = median([value for value, _ in overlaps])
+        assert not middle < 0.9, f"{self.name}: median overlap {middle:.3f}, worst {sorted(overlaps)[:5]}"
         wrong = [one for one in heights if one[0] > 0.05]
         assert len(wrong) <= 0.02 * len(heights), f"{self.name}: heights {wrong[:5]}"
         courts = self.courts([shape for *_, shape in outlines + parts], shapes, index)
         covered = [union_of(shapes, index, shape).intersection(shape).area / shape.area for _, _, shape in parts]
-        assert not courts or statistics.median(courts) <= 0.05, f"{self.name}: courts are built up: {sorted(courts)[-5:]}"
-        assert not covered or statistics.median(covered) >= 0.95, f"{self.name}: parts are not covered: {sorted(covered)[:5]}"
+        assert not median(courts) > 0.05, f"{self.name}: courts are built up: {sorted(courts)[-5:]}"
+        assert not median(covered) < 0.95, f"{self.name}: parts are not covered: {sorted(covered)[:5]}"
         far, farthest = self.overhang(shapes)
         assert far <= 0.002 * len(shapes) and farthest <= 1.0, f"{self.name}: {far} boxes stand over their outlines, one by {farthest:.2f} m"
         self.check_points()
         share = self.check_paths()
-        print(f"{self.name}: {objects} buildings ({len(parts)} parts), overlap {statistics.median(v for v, _ in overlaps) if overlaps else math.nan:.3f} "
+        print(f"{self.name}: {objects} buildings ({len(parts)} parts), overlap {middle:.3f} "
               f"over {len(overlaps)}, {len(heights)} heights, {len(wrong)} wrong, {share:.3f} of the footpaths walkable")
         if courts or covered:
-            print(f"  {len(courts)} courts, built up {statistics.median(courts) if courts else math.nan:.3f} in the median; parts covered {statistics.median(covered) if covered else math.nan:.3f}")
+            print(f"  {len(courts)} courts, built up {median(courts):.3f} in the median; parts covered {median(covered):.3f}")
 
     def overhang(self, shapes):
         """How many boxes reach farther beyond all outlines than half a metre, and the farthest reach."""
@@ -211,14 +208,14 @@ class Town:
         there = [int(at) for at in index.query(shape, predicate="intersects")]
         if not there:
             return 0.0
-        covered = {}
+        covered = Counter()
         for at in there:
-            covered[boxes[at]["object"]] = covered.get(boxes[at]["object"], 0.0) + shapes[at].intersection(shape).area
+            covered[boxes[at]["object"]] += shapes[at].intersection(shape).area
         best = max(covered, key=covered.get)
         union = unary_union([shapes[at] for at in there if boxes[at]["object"] == best])
         # All boxes of the object, also those that do not touch the shape.
         union = union.union(unary_union([s for s, b in zip(shapes, boxes) if b["object"] == best])) if len(there) < 40 else union
-        return shape.intersection(union).area / shape.union(union).area
+        return overlap(shape, union)
 
     def height(self, name, tags, shape, shapes, index, boxes):
         """Difference between a stated height and the nearest top of the boxes over the middle of a shape."""
@@ -233,8 +230,7 @@ class Town:
             expected = sum(tags.get(key) == value and self.holds(at, THING_MARGIN_M) for tags, at in self.points)
             notes = [note for note in self.town["notes"] if "trees in rows" in note and kind == "TreeTrunk"]
             in_rows = int(notes[0].split("places of ")[1].split()[0]) if notes else 0
-            stated = [box for box in self.town["boxes"] if box["kind"] == kind and not box["synthetic"]]
-            found = len(stated) - in_rows
+            found = sum(box["kind"] == kind and not box["synthetic"] for box in self.town["boxes"]) - in_rows
             assert found == expected, f"{self.name}: {found} {kind}, the file has {expected}"
 
     def check_paths(self):
@@ -254,13 +250,8 @@ class Town:
         return share
 
 
-def main():
-    inspect, folder = sys.argv[1:]
-    files = sorted(path for path in Path(folder).iterdir() if ".osm" in path.name)
-    assert files, f"no extracts in {folder}"
-    for path in files:
-        Town(inspect, path).check()
-    print(f"{len(files)} extracts agree with pyosmium")
-
-
-main()
+files = sorted(path for path in Path(sys.argv[2]).iterdir() if ".osm" in path.name)
+assert files, f"no extracts in {sys.argv[2]}"
+for path in files:
+    Town(sys.argv[1], path).check()
+print(f"{len(files)} extracts agree with pyosmium")

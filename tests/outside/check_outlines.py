@@ -18,7 +18,7 @@ import xml.etree.ElementTree as ET
 from check_cityjson import things_of
 from shapely import STRtree, make_valid, union_all
 from shapely.geometry import Polygon
-from shared import json_of
+from shared import json_of, overlap
 
 
 def numbers(element, *names):
@@ -129,9 +129,8 @@ def compare(truth, found):
     tree = STRtree([plan for plan, *_ in found])
     overlaps, feet, tops = [], [], []
     for _, plan, foot, top in truth:
-        share = lambda k: found[k][0].intersection(plan).area / found[k][0].union(plan).area
-        overlap, best = max(((share(k), int(k)) for k in tree.query(plan, "intersects")), default=(0.0, -1))
-        overlaps.append(overlap)
+        share, best = max(((overlap(found[k][0], plan), int(k)) for k in tree.query(plan, "intersects")), default=(0.0, -1))
+        overlaps.append(share)
         if best >= 0:
             feet.append(found[best][1] - foot)
             tops.append(found[best][2] - top)
@@ -147,7 +146,7 @@ def main():
             continue
         flat, pitched = (compare(truth, town_of(inspect, path, roofs)) for roofs in ("flat", "pitched"))
         overlaps, feet, tops = flat
-        missing = [identity for (identity, *_), overlap in zip(truth, overlaps) if overlap == 0.0]
+        missing = [identity for (identity, *_), share in zip(truth, overlaps) if share == 0.0]
         off = [one for one in tops if abs(one) > 0.3]
         median, added = statistics.median(overlaps), statistics.median(pitched[2])
         print(
