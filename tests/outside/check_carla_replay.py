@@ -8,12 +8,13 @@ What it cannot check: how a real server draws, how its walkers move, how long it
 
 import sys
 import tempfile
+from collections import defaultdict
 from pathlib import Path
+from types import SimpleNamespace
 
 import carla
 import numpy as np
 from mcap.reader import make_reader
-from PIL import Image
 from scipy.spatial.transform import Rotation
 from shared import messages, module, picture, pixels, require, run, said
 
@@ -22,10 +23,10 @@ WALKER = 4242  # the raw instance id of the walker
 
 def read_log(path):
     """Time, message and schema of messages by topic."""
-    log = {}
+    log = defaultdict(list)
     for topic, message, time, schema in messages(path):
-        log.setdefault(topic, []).append((time, message, schema))
-    return log
+        log[topic].append((time, message, schema))
+    return dict(log)
 
 
 def numbers(vector):
@@ -55,16 +56,31 @@ class Transforms:
 
 
 class StandIn:
-    """Blueprint, actor, library, settings and world of a server that shows a log."""
+    """Client, library and world of a server that shows a log."""
 
     def __init__(self, log, transforms):
         self.log, self.transforms = log, transforms
         self.frame, self.ticks, self.sensors, self.weather, self.alive = 100, 0, [], None, set()
-        self.settings = carla.WorldSettings()
-        self.history = []
-        self.lagging = False
+        self.settings, self.history, self.lagging = carla.WorldSettings(), [], False
+
+    # the client
+    get_server_version = lambda self: "0.9.16"
+    get_world = get_blueprint_library = lambda self: self
+    get_available_maps = lambda self: ["/Game/Carla/Maps/Town01", "/Game/Carla/Maps/Town02"]
+
+    def load_world(self, name):
+        raise AssertionError(f"{name} is not there")
+
+    # the library
+    find = lambda self, name: Blueprint(name)
+
+    def filter(self, pattern):
+        require(pattern == "walker.pedestrian.*", pattern)
+        return [Blueprint(f"walker.pedestrian.{i:04}") for i in (3, 1, 2)]
 
     # the world
+    get_map = lambda self: SimpleNamespace(name="Carla/Maps/plain")
+
     def get_settings(self):
         copy = carla.WorldSettings()
         for name in ("synchronous_mode", "fixed_delta_seconds", "substepping", "max_substep_delta_time", "max_substeps"):
@@ -77,19 +93,6 @@ class StandIn:
 
     def set_weather(self, weather):
         self.weather = weather
-
-    def get_map(self):
-        return type("Map", (), {"name": "Carla/Maps/plain"})()
-
-    def get_blueprint_library(self):
-        return self
-
-    def find(self, name):
-        return Blueprint(name)
-
-    def filter(self, pattern):
-        require(pattern == "walker.pedestrian.*", pattern)
-        return [Blueprint(f"walker.pedestrian.{i:04}") for i in (3, 1, 2)]
 
     def spawn_actor(self, blueprint, transform):
         actor = Actor(self, blueprint, transform)
@@ -113,7 +116,6 @@ class StandIn:
 
     def picture(self, sensor, number):
         kind = sensor.blueprint.id.split(".")[-1]
-        drawn = type("Picture", (), {})()
         if kind == "rgb":
             rgb = np.asarray(picture(self.log["/camera/rgb/image"][number][1]).convert("RGB"))
             channels = [rgb[:, :, 2], rgb[:, :, 1], rgb[:, :, 0]]
@@ -127,12 +129,9 @@ class StandIn:
             raw = np.where(ids == 1, WALKER, np.maximum(ids - 2, 0))
             channels = [raw >> 8, raw & 255, label] if kind == "instance_segmentation" else [label * 0, label * 0, label]
         bgra = np.stack([*channels, np.full_like(channels[0], 255)], axis=2).astype(np.uint8)
-        drawn.raw_data, drawn.height, drawn.width = bgra.tobytes(), bgra.shape[0], bgra.shape[1]
-        drawn.frame, drawn.transform = self.frame, sensor.transform
-        if self.lagging:
-            place = sensor.transform.location
-            drawn.transform = carla.Transform(carla.Location(x=place.x - 1.0, y=place.y, z=place.z))
-        return drawn
+        place = sensor.transform.location
+        seen_from = carla.Transform(carla.Location(x=place.x - 1.0, y=place.y, z=place.z)) if self.lagging else sensor.transform
+        return SimpleNamespace(raw_data=bgra.tobytes(), height=bgra.shape[0], width=bgra.shape[1], frame=self.frame, transform=seen_from)
 
 
 class Blueprint:
@@ -176,32 +175,14 @@ class Actor:
         require(not enabled, "the walker must not fall")
 
 
-class Client:
-    def __init__(self, world):
-        self.world = world
-
-    def get_server_version(self):
-        return "0.9.16"
-
-    def get_world(self):
-        return self.world
-
-    def get_available_maps(self):
-        return ["/Game/Carla/Maps/Town01", "/Game/Carla/Maps/Town02"]
-
-    def load_world(self, name):
-        raise AssertionError(f"{name} is not there")
-
-
 def same_pictures(before, after, world):
     for topic, logged in before.items():
         require(topic in after, f"{topic} is missing")
         require([m[0] for m in logged] == [m[0] for m in after[topic]], f"times of {topic}")
         require(logged[0][2] == after[topic][0][2], f"schema of {topic}")
-    untouched = [t for t in before if not t.startswith("/camera/") and t != "/target/state"] + ["/camera/rgb/camera_info"]
-    for topic in untouched:
-        bytes_of = [[m[1].SerializeToString() for m in log[topic]] for log in (before, after)]
-        require(bytes_of[0] == bytes_of[1], f"{topic} changed")
+        if not topic.startswith("/camera/") and topic != "/target/state" or topic == "/camera/rgb/camera_info":
+            sent = [[m[1].SerializeToString() for m in log[topic]] for log in (before, after)]
+            require(sent[0] == sent[1], f"{topic} changed")
     worst = 0.0
     for number in range(len(before["/tf"])):
         old, new = ({t: log[t][number][1] for t in log if t.startswith(("/camera/", "/target/state"))} for log in (before, after))
@@ -244,7 +225,7 @@ def check_flight(replay, dataset, out, flight, offset):
     before = read_log(source)
     world = StandIn(before, Transforms(before, offset))
     job = {"flights": [flight]}
-    replay.replay(Client(world), job, dataset, out, True, say=lambda _: None)
+    replay.replay(world, job, dataset, out, True, say=lambda _: None)
     require(not world.alive and not world.sensors, "actors stay behind")
     require(world.history == [(True, flight["dt_s"]), (False, None)] or not world.history[-1][0], f"{world.history}")
     require(world.ticks == len(flight["frames"]) + replay.WARM_UP_TICKS, f"{world.ticks} ticks")
@@ -264,37 +245,31 @@ def check_refusals(replay, dataset, scratch, flight, log, offset):
             return str(error)
         raise SystemExit("check_carla_replay: nothing was refused")
 
-    (scratch / "not.json").write_text("{}")
-    require("no job file" in refusal(lambda: replay.load_job(scratch / "not.json")), "another file")
-    (scratch / "newer.json").write_text('{"format": "cosfly-carla-job", "version": 9, "flights": []}')
-    require("version 9" in refusal(lambda: replay.load_job(scratch / "newer.json")), "a newer job")
+    for text, words in (("{}", "no job file"), ('{"format": "cosfly-carla-job", "version": 9, "flights": []}', "version 9")):
+        (scratch / "other.json").write_text(text)
+        require(words in refusal(lambda: replay.load_job(scratch / "other.json")), words)
     world = StandIn(log, Transforms(log, offset))
     elsewhere = {"flights": [{**flight, "town": "Atlantis"}]}
-    require("no map Atlantis" in refusal(lambda: replay.replay(Client(world), elsewhere, dataset, scratch, False)), "a map")
+    require("no map Atlantis" in refusal(lambda: replay.replay(world, elsewhere, dataset, scratch, False)), "a map")
     world.lagging = True
     job = {"flights": [flight]}
-    require("from where" in refusal(lambda: replay.replay(Client(world), job, dataset, scratch / "lag", True)), "a late picture")
+    require("from where" in refusal(lambda: replay.replay(world, job, dataset, scratch / "lag", True)), "a late picture")
     require(not world.alive and not world.settings.synchronous_mode, "after a refusal the server is as before")
     require(not list((scratch / "lag").rglob("*.mcap")), "half a log")
     said("refusals", "wrong file, newer job, unknown map, late picture")
 
 
-def main():
-    cosfly, dataset = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
-    replay = module("plugins/carla/replay.py")
-    with tempfile.TemporaryDirectory() as scratch:
-        scratch = Path(scratch)
-        run(cosfly, "carla-job", dataset, "--out", scratch / "job.json")
-        job = replay.load_job(scratch / "job.json")
-        said("cosfly carla-job", f"{len(job['flights'])} flights")
-        for flight in job["flights"][:2]:
-            log = read_log(dataset / flight["log"])
-            # The town's offset, once more from the log's metadata.
-            with (dataset / flight["log"]).open("rb") as file:
-                records = {r.name: r.metadata for r in make_reader(file).iter_metadata()}
-            offset = np.array([float(n) for n in records["cosfly.trajectory"]["town_offset_m"].strip("[]").split(",")])
-            check_flight(replay, dataset, scratch / "out", flight, offset)
-        check_refusals(replay, dataset, scratch, flight, log, offset)
-
-
-main()
+cosfly, dataset = (Path(argument).resolve() for argument in sys.argv[1:])
+replay = module("plugins/carla/replay.py")
+with tempfile.TemporaryDirectory() as scratch:
+    scratch = Path(scratch)
+    run(cosfly, "carla-job", dataset, "--out", scratch / "job.json")
+    job = replay.load_job(scratch / "job.json")
+    said("cosfly carla-job", f"{len(job['flights'])} flights")
+    for flight in job["flights"][:2]:
+        # The town's offset, once more from the log's metadata.
+        with (dataset / flight["log"]).open("rb") as file:
+            records = {r.name: r.metadata for r in make_reader(file).iter_metadata()}
+        offset = np.array([float(n) for n in records["cosfly.trajectory"]["town_offset_m"].strip("[]").split(",")])
+        log = check_flight(replay, dataset, scratch / "out", flight, offset)
+    check_refusals(replay, dataset, scratch, flight, log, offset)

@@ -6,7 +6,6 @@ python check_ros2.py DATASET EXPORT
 
 import dataclasses
 import sys
-import tempfile
 from collections import defaultdict
 from pathlib import Path
 
@@ -15,15 +14,13 @@ from mcap_ros2.reader import read_ros2_messages
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 from scipy.spatial.transform import Rotation
-from shared import axes_of, flown, place, rows, run
+from shared import axes_of, flown, imported_by_rerun, place, rows
 
 dataset, export = Path(sys.argv[1]), Path(sys.argv[2])
 MIRROR = np.diag([1.0, -1.0, 1.0])
 # Columns: right, down and ahead of a camera whose axes are x ahead, y right, z up.
 OPTICAL = np.array([[0.0, 0, 1], [1, 0, 0], [0, -1, 0]])
 LATCHED = {"/tf_static", "/town", "/instruction"}
-
-
 flights, frames, people = flown(dataset)
 objects = defaultdict(set)
 for row in rows(dataset, "objects"):
@@ -217,18 +214,6 @@ def definitions_are_those_of_ros(bag):
     return len(names)
 
 
-def rerun_imports(bag):
-    """The importer of Rerun knows the types: it makes pictures, depths and transforms of them."""
-    (file,), rerun = bag.glob("*.mcap"), Path(sys.executable).with_name("rerun")
-    run(rerun, "analytics", "disable")
-    with tempfile.TemporaryDirectory() as scratch:
-        run(rerun, "mcap", "convert", file, "-o", f"{scratch}/bag.rrd")
-        printed = run(rerun, "rrd", "print", "-vv", f"{scratch}/bag.rrd")
-    for word in ("EncodedImage", "DepthImage", "Transform3D", "Pinhole"):
-        assert word in printed, word
-    return "EncodedImage, DepthImage, Transform3D, Pinhole"
-
-
 bags = sorted(path.parent for path in export.glob("*/*/*/metadata.yaml"))
 if len(bags) < len(flights):
     print(f"{len(bags)} bags of rigs, {sum(map(check_rig, bags))} camera poses and boxes as in the tables")
@@ -239,4 +224,4 @@ assert total[1], "no picture shows enough of the target"
 print(f"{len(bags)} bags, {total[0]} frames, {total[1]} with the target found in the depths, {total[2]} markers")
 print(f"rosbags and mcap-ros2-support agree in {both_readers_agree(bags[0])} messages")
 print(f"{definitions_are_those_of_ros(bags[0])} definitions have the hashes of ROS 2 Humble")
-print(f"Rerun imports {rerun_imports(bags[0])}")
+imported_by_rerun(*bags[0].glob("*.mcap"), "EncodedImage", "DepthImage", "Transform3D", "Pinhole")

@@ -6,7 +6,6 @@ python check_trackers.py COSFLY DATASET FOLDER     FOLDER has mot/, otb/, uav123
 
 import configparser
 import glob
-import json
 import sys
 import tempfile
 from collections import defaultdict
@@ -17,13 +16,11 @@ import got10k.experiments
 import numpy as np
 import trackeval
 from PIL import Image
-from shared import flown, json_of
+from shared import flown, json_lines, json_of
 
 cosfly, dataset, folder = Path(sys.argv[1]), Path(sys.argv[2]), Path(sys.argv[3])
 CLASSES = {1: "pedestrian", 3: "car", 4: "bicycle", 5: "motorcycle"}
 random = np.random.default_rng(11)
-
-
 flights, frames, people = flown(dataset)
 
 
@@ -33,11 +30,12 @@ def box(edges):
 
 
 def sequences(export):
-    return list(map(json.loads, (folder / export / "sequences.jsonl").read_text().splitlines()))
+    return json_lines(folder / export / "sequences.jsonl")
 
 
 def frame_of(row, picture):
-    return row["first_frame"] + (picture - 1) * row["every"]
+    """The row of the frame that a picture of a sequence shows."""
+    return frames[row["trajectory_id"]][row["first_frame"] + (picture - 1) * row["every"]]
 
 
 def check_pictures(row, files):
@@ -112,12 +110,15 @@ def lines(rows, kind=None):
     return [",".join(f"{number:.9g}" for number in (*row[:7], *tail(row))) + "\n" for row in chosen]
 
 
+def truth_of(root):
+    return np.loadtxt(root / "gt/gt.txt", delimiter=",", ndmin=2).reshape(-1, 9)
+
+
 def compared():
     """A tracker with mistakes, scored by TrackEval class by class: it knows pedestrians alone, so each class takes their number in turn."""
     count = 0
-    for split in sorted({row["split"] for row in sequences("mot")}):
-        truths = {row["sequence"]: np.loadtxt(folder / "mot" / split / row["sequence"] / "gt/gt.txt", delimiter=",", ndmin=2).reshape(-1, 9)
-                  for row in sequences("mot") if row["split"] == split}
+    for split, listed in by_split("mot").items():
+        truths = {row["sequence"]: truth_of(folder / "mot" / split / row["sequence"]) for row in listed}
         found = {name: mistaken(truth) for name, truth in truths.items()}
         options = ["--sequences", folder / "mot", "--split", split]
         report = evaluated({name: "".join(lines(rows)) for name, rows in found.items()}, *options)
@@ -158,7 +159,7 @@ def mot():
         assert int(info["seqLength"]) == row["pictures"] == len(frames[id]) and info["name"] == id
         assert abs(float(info["frameRate"]) * flights[id]["dt_s"] - 1) < 1e-5
         check_pictures(row, sorted(glob.glob(str(root / info["imDir"] / f"*{info['imExt']}"))))
-        truth = np.loadtxt(root / "gt/gt.txt", delimiter=",", ndmin=2).reshape(-1, 9)
+        truth = truth_of(root)
         expected = {}
         for number, known in frames[id].items():
             if known["visible_box_px"]:
@@ -179,7 +180,7 @@ def check_target(row, files, boxes, absent):
     check_pictures(row, files)
     assert len(boxes) == row["pictures"]
     for picture, found in enumerate(boxes, 1):
-        known = frames[row["trajectory_id"]][frame_of(row, picture)]["visible_box_px"]
+        known = frame_of(row, picture)["visible_box_px"]
         assert absent(found) if known is None else list(found) == box(known)
     assert not absent(boxes[0]), "trackers start from the first box"
 
@@ -192,17 +193,21 @@ def is_nought(found):
     return list(found) == [0, 0, 0, 0]
 
 
+def by_split(export):
+    found = defaultdict(list)
+    for row in sequences(export):
+        found[row["split"]].append(row)
+    return found
+
+
 def otb():
-    names = defaultdict(list)
-    for row in sequences("otb"):
-        names[row["split"]].append(row)
-    for split, rows in names.items():
+    for split, rows in by_split("otb").items():
         got10k.datasets.OTB._OTB__version_dict["cosfly"] = [row["sequence"] for row in rows]
         data = got10k.datasets.OTB(str(folder / "otb" / split), "cosfly", download=False)
         assert len(data) == len(rows)
         for row in rows:
             check_target(row, *data[row["sequence"]], without_a_box)
-    return f"{sum(map(len, names.values()))} sequences, read by got10k"
+    return f"{len(sequences('otb'))} sequences, read by got10k"
 
 
 class Metas:
@@ -214,15 +219,13 @@ class Metas:
 
 def uav123():
     reader = sys.modules["got10k.datasets.uav123"]
-    reader.json, count = Metas, 0
-    reader.UAV123._check_integrity = lambda *_: None
-    for split in sorted({row["split"] for row in sequences("uav123")}):
+    reader.json, reader.UAV123._check_integrity = Metas, lambda *_: None
+    for split, rows in by_split("uav123").items():
         data = got10k.datasets.UAV123(str(folder / "uav123" / split))
-        for row in (row for row in sequences("uav123") if row["split"] == split):
+        for row in rows:
             check_target(row, *data[row["sequence"]], without_a_box)
-            count += 1
         assert len(data) == len(list((folder / "uav123" / split / "data_seq/UAV123").iterdir()))
-    return f"{count} sequences, read by got10k"
+    return f"{len(sequences('uav123'))} sequences, read by got10k"
 
 
 def lasot():
@@ -236,7 +239,7 @@ def lasot():
         files, boxes, meta = data[name]
         check_target(row, files, boxes, is_nought)
         for picture in range(1, row["pictures"] + 1):
-            known = frames[row["trajectory_id"]][frame_of(row, picture)]
+            known = frame_of(row, picture)
             is_hidden = known["in_view"] and known["visible_box_px"] is None
             assert [meta["full_occlusion"][picture - 1], meta["out_of_view"][picture - 1]] == [is_hidden, not known["in_view"]]
             absences += [is_hidden, not known["in_view"]]
@@ -277,8 +280,8 @@ def targets():
         results, theirs = {}, {}
         for row in sequences(export):
             name = row["sequence"]
-            place = folder / export / row["split"]
-            file = place / name / "groundtruth_rect.txt" if export == "otb" else place / name[: name.rfind("-")] / name / "groundtruth.txt"
+            within = f"{name}/groundtruth_rect.txt" if export == "otb" else f"{name[: name.rfind('-')]}/{name}/groundtruth.txt"
+            file = folder / export / row["split"] / within
             boxes = np.loadtxt(file, delimiter=",", ndmin=2)
             found = wandering(boxes, absent)
             results[name] = "".join(",".join(f"{number:.17g}" for number in box) + "\n" for box in found)
