@@ -3,7 +3,6 @@
 Usage: check_drone.py FLIGHT_OF_STDIN
 """
 
-import subprocess
 import sys
 
 import numpy as np
@@ -11,13 +10,11 @@ from drone_models.core import load_params
 from drone_models.first_principles import dynamics
 from scipy.signal import welch
 from scipy.spatial.transform import Rotation
+from shared import run
 
-program = sys.argv[1]
 
-
-def run(arguments, text=""):
-    printed = subprocess.run([program, *map(str, arguments)], input=text, capture_output=True, text=True, check=True)
-    return np.array([[float(word) for word in line.split()] for line in printed.stdout.splitlines()])
+def numbers_of(*arguments, **options):
+    return np.array([[float(word) for word in line.split()] for line in run(sys.argv[1], *arguments, **options).splitlines()])
 
 
 # The quadrotor: Runge and Kutta's steps over the derivatives of drone-models. Attitudes turn by q' = q * (rates, 0) / 2.
@@ -35,11 +32,10 @@ def slope(state, command):
 
 
 def stepped(state, command, step):
-    first = slope(state, command)
-    second = slope(state + 0.5 * step * first, command)
-    third = slope(state + 0.5 * step * second, command)
-    fourth = slope(state + step * third, command)
-    state = state + step / 6 * (first + 2 * second + 2 * third + fourth)
+    slopes = [slope(state, command)]
+    for share in (0.5, 0.5, 1.0):
+        slopes.append(slope(state + share * step * slopes[-1], command))
+    state = state + step / 6 * (np.array([1, 2, 2, 1]) @ slopes)
     state[3:7] /= np.linalg.norm(state[3:7])
     return state
 
@@ -60,7 +56,7 @@ for _ in range(10):
     commands = mean + random.normal(0, 150, (count, 4))
     lines = [" ".join(repr(float(value)) for value in state)]
     lines += [" ".join(repr(float(value)) for value in [*command, 0, 0, 0, step]) for command in commands]
-    flown = run(["quadrotor"], "\n".join(lines) + "\n")
+    flown = numbers_of("quadrotor", input="\n".join(lines) + "\n")
     before = state
     for command, ours in zip(commands, flown):
         worst_step = max(worst_step, distance(ours, stepped(before, command, step)))
@@ -72,23 +68,21 @@ assert worst_step < 1e-9 and worst_second < 1e-6
 
 # Gusts: one-sided densities of Dryden's spectra, in eight bands from a thousandth to a tenth of the sampling rate.
 step, speed, deviation, length = 0.02, 8.0, 1.5, 12.0
-gusts = run(["gusts", step, speed, deviation, length, 1_000_000])
+gusts = numbers_of("gusts", step, speed, deviation, length, 1_000_000)
 for axis, name in enumerate(["along", "across", "upwards"]):
     frequency, density = welch(gusts[:, axis], fs=1 / step, nperseg=8192)
     place = 2 * np.pi * frequency * length / speed
     level = 4 * deviation**2 * length / speed
     wanted = level / (1 + place**2) if axis == 0 else 0.5 * level * (1 + 3 * place**2) / (1 + place**2) ** 2
     bands = np.geomspace(0.05, 5.0, 9)
-    ratios = []
-    for low, high in zip(bands, bands[1:]):
-        inside = (frequency >= low) & (frequency < high)
-        ratios.append(density[inside].mean() / wanted[inside].mean())
+    inside = [(frequency >= low) & (frequency < high) for low, high in zip(bands, bands[1:])]
+    ratios = [density[band].mean() / wanted[band].mean() for band in inside]
     print(f"gusts {name}: measured / Dryden {min(ratios):.3f} to {max(ratios):.3f}")
     assert 0.9 < min(ratios) and max(ratios) < 1.1, ratios
 
 # The inertial unit: Allan deviation falls with the root of time by the noise's density, and rises by that of the walk.
 rate = 200.0
-samples = run(["inertial", rate, 4_000_000])
+samples = numbers_of("inertial", rate, 4_000_000)
 
 
 def allan(values, seconds):

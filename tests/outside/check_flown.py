@@ -10,24 +10,30 @@ import json
 import math
 import pathlib
 import sys
-import tempfile
+from collections import defaultdict
 
 from PIL import Image
-from shared import messages, run
+from shared import imported_by_rerun, json_lines, messages
 
 folder = pathlib.Path(sys.argv[1])
 card = json.loads((folder / "card.json").read_text())
-rows = [json.loads(line) for line in (folder / "episodes.jsonl").read_text().splitlines()]
+rows = json_lines(folder / "episodes.jsonl")
 weights = card["environment"]["reward_weights"]
 terms = ["visibility", "framing", "distance", "effort", "collision", "loss"]
 lost = 0
+
+
+def steps_of(name):
+    return json_lines(folder / "logs" / f"{name}.jsonl")
+
+
 for row in rows:
     name, score = row["episode"], row["score"]
-    steps = [json.loads(line) for line in (folder / "logs" / f"{name}.jsonl").read_text().splitlines()]
+    steps = steps_of(name)
     assert len(steps) == score["steps"], name
-    topics = {}
+    topics = defaultdict(list)
     for topic, message, time, _ in messages(folder / "logs" / f"{name}.mcap"):
-        topics.setdefault(topic, []).append((time, message))
+        topics[topic].append((time, message))
     for topic in ("/tf", "/drone/pose", "/target/pose", "/target/state", "/camera/rgb/camera_info", "/flight/step"):
         assert [time for time, _ in topics[topic]] == [round(1e9 * step["time_s"]) for step in steps], (name, topic)
     assert any(entity.cubes for entity in topics["/scene"][0][1].entities), name
@@ -41,7 +47,7 @@ for row in rows:
         assert math.isclose(flown.reward, sum(weights[key] * term for key, term in zip(terms, step["reward"])), abs_tol=1e-9)
         reward += flown.reward
     assert math.isclose(reward, score["reward_sum"], rel_tol=1e-9, abs_tol=1e-6), name
-    events = [event.message for _, event in topics.get("/flight/events", [])]
+    events = [event.message for _, event in topics["/flight/events"]]
     assert sum(event.startswith("target lost: ") for event in events) == score["losses"], (name, events)
     lost += score["losses"]
     end = {"finished": "end of the walk", "collision": "collision", "lost": "target lost for too long"}.get(score["end"])
@@ -78,23 +84,23 @@ def check_bag(bag, steps):
     from mcap_ros2.reader import read_ros2_messages
     from rosbags.highlevel import AnyReader
 
-    (file,), topics = bag.glob("*.mcap"), {}
+    (file,), topics = bag.glob("*.mcap"), defaultdict(list)
     with AnyReader([bag]) as reader:
         for connection, time, raw in reader.messages():
-            topics.setdefault(connection.topic, []).append((time, reader.deserialize(raw, connection.msgtype)))
+            topics[connection.topic].append((time, reader.deserialize(raw, connection.msgtype)))
     theirs = [it.channel.topic for it in read_ros2_messages(str(file))]
     assert sorted(theirs) == sorted(topic for topic, all_of_it in topics.items() for _ in all_of_it)
     times = [round(1e9 * step["time_s"]) + 10**9 for step in steps]
     assert topics["/town"][0][1].markers
     for topic in ("/clock", "/odom", "/target/odom", "/flight/step"):
         assert [time for time, _ in topics[topic]] == times, topic
-    asked = dict(topics.get("/cmd_vel", topics.get("/flight/action")))
+    asked = dict(topics["/cmd_vel"] or topics["/flight/action"])
     for time, step, (_, drone), (_, target), (_, flown) in zip(times, steps, topics["/odom"], topics["/target/odom"], topics["/flight/step"]):
         for message, key in (drone, "position_in_world"), (target, "target_in_world"):
             place, (x, y, z) = message.pose.pose.position, step[key]
             assert (place.x, place.y, place.z) == (x, -y, z), key
         assert list(flown.data[:2]) == [step["tracked"], step["visible"]] and list(flown.data[4:]) == step["reward"]
-        if "action" in step and "/cmd_vel" in topics:
+        if "action" in step and topics["/cmd_vel"]:
             ahead, right, up, pitch, yaw = step["action"]
             linear, angular = asked[time].twist.linear, asked[time].twist.angular
             assert (linear.x, linear.y, linear.z) == (ahead, -right, up)
@@ -104,11 +110,6 @@ def check_bag(bag, steps):
 
 if len(sys.argv) > 2:
     bags = sorted(path.parent for path in pathlib.Path(sys.argv[2]).glob("*/*/metadata.yaml"))
-    log = lambda name: [json.loads(line) for line in (folder / "logs" / f"{name}.jsonl").read_text().splitlines()]
     assert {bag.name for bag in bags} == {row["episode"] for row in rows}
-    print(f"{len(bags)} bags, {sum(check_bag(bag, log(bag.name)) for bag in bags)} steps")
-    (file,), rerun = bags[0].glob("*.mcap"), pathlib.Path(sys.executable).with_name("rerun")
-    with tempfile.TemporaryDirectory() as scratch:
-        run(rerun, "mcap", "convert", file, "-o", f"{scratch}/bag.rrd")
-        printed = run(rerun, "rrd", "print", "-vv", f"{scratch}/bag.rrd")
-    assert "Transform3D" in printed and "Pinhole" in printed
+    print(f"{len(bags)} bags, {sum(check_bag(bag, steps_of(bag.name)) for bag in bags)} steps")
+    imported_by_rerun(*bags[0].glob("*.mcap"), "Transform3D", "Pinhole")

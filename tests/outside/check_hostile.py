@@ -3,26 +3,26 @@
 Usage: check_hostile.py COSFLY SUITE WORK_FOLDER [PART_OF_A_NAME]
 """
 
-import json
 import os
 import pathlib
 import shutil
 import subprocess
 import sys
+import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 
 from hostile_policies import MODULES, SERVERS, Server
+from shared import json_lines, run
 
-cosfly, suite, work = (str(pathlib.Path(it).resolve()) for it in sys.argv[1:4])
+cosfly, suite, work = (pathlib.Path(it).resolve() for it in sys.argv[1:4])
 chosen = sys.argv[4] if len(sys.argv) > 4 else ""
-work = pathlib.Path(work)
 shutil.rmtree(work / "out", ignore_errors=True)
 (work / "modules").mkdir(parents=True, exist_ok=True)
 FEW = ["--set", "stages.walkers.count=2", "--jobs", "2", "--clips", "0", "--logs", "none"]
 PATIENCE = ["--timeout-s", "2", "--wait-s", "3"]
 KEY = "pass-1234-word"
-subprocess.run([cosfly, "fly", suite, "--store", work / "store", "--policy", "hold", "--out", work / "out", *FEW], check=True, capture_output=True)
+run(cosfly, "fly", suite, "--store", work / "store", "--policy", "hold", "--out", work / "out", *FEW)
 
 
 def check(name, policy):
@@ -34,38 +34,27 @@ def check(name, policy):
     with open(work / f"{name}.stdout", "wb") as stdout, open(work / f"{name}.stderr", "wb") as stderr:
         began = time.monotonic()
         process = subprocess.Popen(command, cwd=work / "modules", stdout=stdout, stderr=stderr, env=environment)
-        killer = __import__("threading").Timer(60, process.kill)
+        killer = threading.Timer(60, process.kill)
         killer.start()
         _, status, usage = os.wait4(process.pid, 0)
         killer.cancel()
         took_s = time.monotonic() - began
     process.returncode = code = os.waitstatus_to_exitcode(status)
     said = (work / f"{name}.stderr").read_bytes().decode("utf-8", "replace")
-    wrong = []
-    if code not in (0, 1):
-        wrong.append(f"exit code {code}: {said[-400:]}")
-    if took_s > 20:
-        wrong.append(f"{took_s:.1f} s")
-    if usage.ru_maxrss > 1 << 20:
-        wrong.append(f"{usage.ru_maxrss >> 10} MiB")
-    if "panicked" in said or "\x1b[2J" in said:
-        wrong.append("a panic, or a terminal that is controlled")
-    if len(said) > 200_000:
-        wrong.append(f"{len(said)} bytes of messages")
-    reasons = []
-    if code == 1:
-        if "error[fly-policy-" not in said or "because:" not in said or "help:" not in said:
-            wrong.append(f"a refusal without cause or way out: {said[-400:]}")
-        if "fly-policy-unready" in said and out.exists():
-            wrong.append("something is kept of a policy that never answered")
-    elif code == 0:
-        rows = [json.loads(line) for line in (out / "mine" / "episodes.jsonl").read_text().splitlines()]
-        reasons = [row.get("policy_failure") for row in rows]
-        if any(reason is not None and (len(reason) < 10 or len(reason) > 2000) for reason in reasons):
-            wrong.append(f"a reason that says nothing: {reasons}")
+    reasons = [row.get("policy_failure") for row in json_lines(out / "mine/episodes.jsonl")] if code == 0 else []
+    faults = {
+        f"exit code {code}: {said[-400:]}": code not in (0, 1),
+        f"{took_s:.1f} s": took_s > 20,
+        f"{usage.ru_maxrss >> 10} MiB": usage.ru_maxrss > 1 << 20,
+        "a panic, or a terminal that is controlled": "panicked" in said or "\x1b[2J" in said,
+        f"{len(said)} bytes of messages": len(said) > 200_000,
+        f"a refusal without cause or way out: {said[-400:]}": code == 1 and not all(it in said for it in ("error[fly-policy-", "because:", "help:")),
+        "something is kept of a policy that never answered": code == 1 and "fly-policy-unready" in said and out.exists(),
+        f"a reason that says nothing: {reasons}": any(reason is not None and not 10 <= len(reason) <= 2000 for reason in reasons),
+    }
     told = reasons[0] if reasons else said[said.rfind("because:") :].split("help:")[0]
     print(f"{name:34} {code} {took_s:5.1f} s {usage.ru_maxrss >> 10:4} MiB  {' '.join(str(told).split())[:110]}", flush=True)
-    return [f"{name}: {it}" for it in wrong]
+    return [f"{name}: {words}" for words, is_so in faults.items() if is_so]
 
 
 def check_module(name, text):

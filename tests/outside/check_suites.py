@@ -4,14 +4,14 @@ Usage: check_suites.py COSFLY SUITES_FOLDER WORK_FOLDER
 Prints the table of the book's page "Benchmarks", section "Baselines in closed loop".
 """
 
-import hashlib
 import json
 import pathlib
-import subprocess
 import sys
 import time
 
 import numpy as np
+from shared import bytes_of, json_lines
+from shared import run as run_program
 
 cosfly, suites, work = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3]).resolve()
 work.mkdir(parents=True, exist_ok=True)
@@ -20,12 +20,7 @@ store = ["--store", work / "store"]
 
 
 def run(*arguments):
-    return subprocess.run([cosfly, *arguments, *store], check=True, capture_output=True, text=True).stdout
-
-
-def bytes_of(folder):
-    files = sorted(path for path in folder.rglob("*") if path.is_file())
-    return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest() for path in files}
+    return run_program(cosfly, *arguments, *store)
 
 
 print("| suite | hash | " + " | ".join(f"`{name}`" for name in names) + " | certified | seen by the expert |")
@@ -34,11 +29,9 @@ order = ["street", "unseen", "trees", "crowd", "vehicles", "loss", "night_rain",
 assert {path.stem for path in suites.glob("*.toml")} == set(order)
 for suite in order:
     policies = [part for name in names for part in ("--policy", name)]
-    scores = json.loads(
-        run("fly", suites / f"{suite}.toml", *policies, "--json", "--clips", "0", "--logs", "none", "--out", work / suite)
-    )
+    scores = json.loads(run("fly", suites / f"{suite}.toml", *policies, "--json", "--clips", "0", "--logs", "none", "--out", work / suite))
     rate = {name: scores[name]["all"]["tracking_rate"]["mean"] for name in names}
-    rows = [json.loads(line) for line in (work / suite / "expert/episodes.jsonl").read_text().splitlines()]
+    rows = json_lines(work / suite / "expert/episodes.jsonl")
     stated = np.mean([row["certified_visibility"] for row in rows])
     seen = np.mean([row["score"]["visible_sum"] / row["score"]["steps"] for row in rows])
     digest = json.loads((work / suite / "expert/card.json").read_text())["suite"]["hash"]
@@ -60,9 +53,8 @@ told = run("dagger", suites / "street.toml", "--policy", "random", "--expert-sha
 seconds = time.monotonic() - begun
 made = json.loads((work / "labels/card.json").read_text())["rounds"][0]["made"]
 print(f"{made['labels']} labels in {seconds:.1f} s; {told.splitlines()[0]}")
-loop = pathlib.Path(__file__).parent.resolve().parent.parent / "recipes/training/dagger.py"
-command = [sys.executable, loop, suites / "street.toml", work / "dagger", "--cosfly", cosfly, *store]
-rounds = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+loop = pathlib.Path(__file__).resolve().parents[2] / "recipes/training/dagger.py"
+rounds = run_program(sys.executable, loop, suites / "street.toml", work / "dagger", "--cosfly", cosfly, *store)
 print(rounds)
 clone, last = (float(line.rsplit(" ", 1)[1]) for line in rounds.splitlines() if line.startswith(("round 0", "round 3")))
 assert last >= 1.3 * clone, (clone, last)

@@ -5,7 +5,9 @@ request was read. Each comes with whether the policy may count as set up: then i
 """
 
 import base64
+import contextlib
 import hashlib
+import itertools
 import os
 import socket
 import struct
@@ -13,14 +15,6 @@ import threading
 import time
 
 GOOD = "import numpy as np\ndef good(o): return np.zeros(5)\n"
-
-
-def at_first(body):
-    return GOOD + f"def act(o):\n    {body}\n"
-
-
-def later(body):
-    return GOOD + f"def act(o):\n    if o['step'] < 3: return good(o)\n    {body}\n"
 
 
 FAULTS = {
@@ -87,54 +81,40 @@ LOADS = {
     "raises_at_load": "raise RuntimeError('the weights are missing')\n",
     "closes_at_load": "import os; [os.close(n) for n in range(0, 30)]\n",
 }
-MODULES = {name: text for name, text in LOADS.items()}
-MODULES |= {f"first_{name}": at_first(body) for name, body in FAULTS.items()}
-MODULES |= {f"later_{name}": later(body) for name, body in FAULTS.items()}
+MODULES = LOADS | {f"first_{name}": f"{GOOD}def act(o):\n    {body}\n" for name, body in FAULTS.items()}
+MODULES |= {f"later_{name}": f"{GOOD}def act(o):\n    if o['step'] < 3: return good(o)\n    {body}\n" for name, body in FAULTS.items()}
 
 HOLD = b"\x81\xa7actions\x95\x00\x00\x00\x00\x00"
+ARRAY = b"\x81\xa7actions\x84\xc4\x0b__ndarray__\xc3\xc4\x04data\xc4\x01\x00\xc4\x05dtype"  # up to the name of its type
 
 
 def frame(data, opcode=2, fin=True):
-    head = bytes([(0x80 if fin else 0) | opcode])
-    size = len(data)
-    if size < 126:
-        head += bytes([size])
-    elif size < 1 << 16:
-        head += b"\x7e" + struct.pack(">H", size)
-    else:
-        head += b"\x7f" + struct.pack(">Q", size)
-    return head + data
+    head, size = bytes([(0x80 if fin else 0) | opcode]), len(data)
+    length = bytes([size]) if size < 126 else struct.pack(">BH", 126, size) if size < 1 << 16 else struct.pack(">BQ", 127, size)
+    return head + length + data
 
 
 def accept(connection, request):
-    key = next(line.split(b":")[1].strip() for line in request.split(b"\r\n") if line.lower().startswith(b"sec-websocket-key"))
+    key = next(line.split(b":")[1].strip() for line in request if line.lower().startswith(b"sec-websocket-key"))
     token = base64.b64encode(hashlib.sha1(key + b"258EAFA5-E914-47DA-95CA-C5AB0DC85B11").digest())
-    connection.sendall(
-        b"HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Accept: " + token + b"\r\n\r\n"
-    )
+    connection.sendall(b"HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Accept: " + token + b"\r\n\r\n")
 
 
-def receive(connection):
-    """One message of the client, which is masked and in one frame."""
+def receive(stream):
+    """The kind of one message of the client, which is masked and in one frame."""
 
     def exactly(count):
-        data = b""
-        while len(data) < count:
-            part = connection.recv(count - len(data))
-            if not part:
-                raise ConnectionError
-            data += part
+        data = stream.read(count)
+        if len(data) < count:
+            raise ConnectionError
         return data
 
-    head = exactly(2)
-    size = head[1] & 0x7F
-    if size == 126:
-        size = struct.unpack(">H", exactly(2))[0]
-    elif size == 127:
-        size = struct.unpack(">Q", exactly(8))[0]
-    exactly(4)
-    exactly(size)
-    return head[0] & 0x0F
+    kind, size = exactly(2)
+    size &= 0x7F
+    if size > 125:
+        size = int.from_bytes(exactly(2 if size == 126 else 8), "big")
+    exactly(4 + size)
+    return kind & 0x0F
 
 
 def endless(connection, data):
@@ -174,9 +154,7 @@ RAW = {
     "forbidden": lambda it: it.sendall(b"HTTP/1.1 403 Forbidden\r\n\r\n"),
     "not_found": lambda it: it.sendall(b"HTTP/1.1 404 \xff\xfe\r\n\r\n"),
     "unavailable": lambda it: it.sendall(b"HTTP/1.1 503 Busy\r\nContent-Length: 99999999999\r\n\r\n"),
-    "wrong_token": lambda it: it.sendall(
-        b"HTTP/1.1 101 X\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Accept: AAAA\r\n\r\n"
-    ),
+    "wrong_token": lambda it: it.sendall(b"HTTP/1.1 101 X\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Accept: AAAA\r\n\r\n"),
 }
 MESSAGES = {
     "empty": lambda it: it.sendall(frame(b"")),
@@ -205,16 +183,8 @@ MESSAGES = {
     "two_messages": lambda it: it.sendall(frame(HOLD) * 2),
     "trailing": lambda it: it.sendall(frame(HOLD + b"\x00")),
     "lying_array": lambda it: it.sendall(frame(b"\x81\xa7actions\xdd\xff\xff\xff\xff")),
-    "lying_numpy": lambda it: it.sendall(
-        frame(
-            b"\x81\xa7actions\x84\xc4\x0b__ndarray__\xc3\xc4\x04data\xc4\x01\x00\xc4\x05dtype\xa3<f4\xc4\x05shape\x92\xcf"
-            + b"\xff" * 8
-            + b"\x05"
-        )
-    ),
-    "unknown_type": lambda it: it.sendall(
-        frame(b"\x81\xa7actions\x84\xc4\x0b__ndarray__\xc3\xc4\x04data\xc4\x01\x00\xc4\x05dtype\xda\x40\x00" + b"q" * 0x4000 + b"\xc4\x05shape\x91\x01")
-    ),
+    "lying_numpy": lambda it: it.sendall(frame(ARRAY + b"\xa3<f4\xc4\x05shape\x92\xcf" + b"\xff" * 8 + b"\x05")),
+    "unknown_type": lambda it: it.sendall(frame(ARRAY + b"\xda\x40\x00" + b"q" * 0x4000 + b"\xc4\x05shape\x91\x01")),
 }
 
 
@@ -228,38 +198,29 @@ class Server:
         threading.Thread(target=self.serve, daemon=True).start()
 
     def serve(self):
-        while True:
-            try:
+        with contextlib.suppress(OSError):
+            while True:
                 connection, _ = self.listener.accept()
-            except OSError:
-                return
-            threading.Thread(target=self.handle, args=(connection,), daemon=True).start()
+                threading.Thread(target=self.handle, args=(connection, connection.makefile("rb")), daemon=True).start()
 
-    def handle(self, connection):
-        try:
-            request = b""
-            while b"\r\n\r\n" not in request:
-                part = connection.recv(4096)
-                if not part:
-                    return
-                request += part
+    def handle(self, connection, stream):
+        with contextlib.suppress(OSError):
+            request = list(itertools.takewhile(b"\r\n".__ne__, iter(stream.readline, b"")))
+            if not request:
+                return
             if self.stage == "connection":
                 return self.behave(connection)
             accept(connection, request)
             if self.stage == "metadata":
                 return self.behave(connection)
             connection.sendall(frame(b"\x80"))
-            number = 0
-            while True:
-                if receive(connection) == 8:
+            for number in itertools.count():
+                if receive(stream) == 8:
                     return
                 if number == (0 if self.stage == "first" else 3):
                     self.behave(connection)
                 else:
                     connection.sendall(frame(HOLD))
-                number += 1
-        except OSError:
-            pass
 
     def stop(self):
         self.listener.close()
