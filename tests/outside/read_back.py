@@ -6,25 +6,25 @@
 Each check prints one line. Exit code 0: every reader read everything.
 """
 
-import argparse
 import hashlib
 import json
 import logging
-import math
 import math
 import os
 import subprocess
 import sys
 import tempfile
+from collections import Counter
 from pathlib import Path
 
-from shared import picture, require, run, said
+from shared import bytes_of, command_line, picture, require, run, said
 
-os.environ.setdefault("HF_HUB_OFFLINE", "1")
-os.environ.setdefault("HF_DATASETS_OFFLINE", "1")
-os.environ.setdefault("HF_HUB_DISABLE_TELEMETRY", "1")
+for name in ("HF_HUB_OFFLINE", "HF_DATASETS_OFFLINE", "HF_HUB_DISABLE_TELEMETRY"):
+    os.environ.setdefault(name, "1")
 
 TABLES = ["trajectories", "frames", "waypoints", "captions", "pairs", "bodies", "windows", "objects", "rejected"]
+# A number of each table whose sum shows that the rows are the same ones, too.
+SUMS = {"trajectories": "frames", "frames": "drone_x_m", "windows": "start_frame", "bodies": "frame", "objects": "instance", "pairs": "frames"}
 FRAME_TOPICS = [
     "/camera/rgb/image", "/camera/rgb/camera_info", "/camera/rgb/annotations", "/camera/depth/image",
     "/camera/semantic/image", "/camera/instance/image", "/tf", "/drone/pose", "/target/pose", "/target/state",
@@ -43,14 +43,14 @@ def check_hashes(folder):
         digest, name = line.split("  ")
         require(hashlib.sha256((folder / name).read_bytes()).hexdigest() == digest, f"{name} differs from SHA256SUMS")
     listed = {row["path"]: row for row in pq.read_table(folder / "files.parquet").to_pylist()}
-    present = {str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()}
-    present -= {"files.parquet", "croissant.json", "SHA256SUMS"}
-    present = {name for name in present if not name.startswith(".")}
-    require(present == set(listed), f"files.parquet and the folder differ: {sorted(present ^ set(listed))[:5]}")
+    present = {name: digest for name, digest in bytes_of(folder).items() if not name.startswith(".")}
+    for name in ("files.parquet", "croissant.json", "SHA256SUMS"):
+        del present[name]
+    require(set(present) == set(listed), f"files.parquet and the folder differ: {sorted(set(present) ^ set(listed))[:5]}")
     for name, row in listed.items():
-        data = (folder / name).read_bytes()
-        require(len(data) == row["bytes"], f"{name} has {len(data)} bytes, not {row['bytes']}")
-        require(hashlib.sha256(data).hexdigest() == row["sha256"], f"{name} differs from its hash")
+        size = (folder / name).stat().st_size
+        require(size == row["bytes"], f"{name} has {size} bytes, not {row['bytes']}")
+        require(present[name] == row["sha256"], f"{name} differs from its hash")
     said("hashlib", f"{len(listed)} files")
 
 
@@ -68,26 +68,45 @@ def check_pyarrow(folder):
     return counts, trajectories
 
 
-def check_datasets(folder, counts, cache):
+def check_tables(folder, cache):
+    """DuckDB, polars and `datasets` (streaming, too) agree on rows, flights and sums; pictures of frames can be opened."""
     import datasets
+    import duckdb
+    import polars
+    import pyarrow.dataset as ds
 
     datasets.disable_progress_bars()
-    for config in [*TABLES, "files"]:
-        if counts.get(config) == 0:
-            continue  # `check_readers.py` reads the empty stream
-        loaded = datasets.load_dataset(str(folder), config, cache_dir=cache)
-        rows = {split: part.num_rows for split, part in loaded.items()}
-        if config in counts:
-            require(sum(rows.values()) == counts[config], f"datasets sees {rows} rows of {config}")
-        for part in loaded.values():
-            for row in part:
-                if config == "frames" and row["preview"] is not None:
-                    row["preview"].load()
-            if config == "frames":
-                features = part.features
-                require(isinstance(features["preview"], datasets.Image), "frames.preview is not an Image")
-                require(features["role"].names == ["expert", "perturbed"], "frames.role is not a ClassLabel")
-        said(f"datasets {config}", str(rows))
+    load = lambda config, **options: datasets.load_dataset(str(folder), config, cache_dir=cache, **options)
+    close = lambda a, b: math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-9)
+    for place in sorted((folder / "data").iterdir()):
+        table, glob = place.name, str(place / "*.parquet")
+        column, columns = SUMS.get(table), set(ds.dataset(place, format="parquet").schema.names)
+        require(column is None or column in columns, f"{table} has no column {column}")
+        rows, total = duckdb.sql(f"select count(*), coalesce({f'sum({column})' if column else '0'}, 0) from read_parquet('{glob}')").fetchall()[0]
+        number, *sums = polars.scan_parquet(glob).select([polars.len(), *([polars.col(column).sum()] if column else [])]).collect().row(0)
+        require(number == rows and all(close(it, total) for it in sums), f"{table}: {rows} rows and {total} in DuckDB, {number} and {sums} in polars")
+        streamed = load(table, streaming=True)
+        if not rows:  # the config stays, and its stream has no rows
+            require(all(list(part) == [] and set(part.column_names or ()) == columns for part in streamed.values()), f"the stream of {table}")
+            continue
+        whole, sum_of_stream = load(table), 0
+        require(sum(part.num_rows for part in whole.values()) == rows, f"datasets sees other rows of {table}")
+        for split, part in streamed.items():
+            own = [row[column] if column else 0 for row in part.remove_columns([name for name in columns if name == "preview"])]
+            require(len(own) == whole[split].num_rows, f"{table}/{split}: {len(own)} rows streamed")
+            sum_of_stream += sum(own)
+        require(close(sum_of_stream, total), f"{table}: {sum_of_stream} in the stream, {total} in DuckDB")
+        said(f"readers of {table}", f"{rows} rows in DuckDB, polars, datasets and its stream")
+        for part in whole.values() if table == "frames" else ():
+            require(isinstance(part.features["preview"], datasets.Image), "frames.preview is not an Image")
+            require(part.features["role"].names == ["expert", "perturbed"], "frames.role is not a ClassLabel")
+            for preview in filter(None, part["preview"]):
+                preview.load()
+    require(sum(part.num_rows for part in load("files").values()) > 0, "datasets sees no files")
+    by_flight = f"select trajectory_id, count(*) n from read_parquet('{folder}/data/frames/*.parquet') group by 1"
+    flights = polars.read_parquet(str(folder / "data/trajectories/*.parquet")).select("trajectory_id", "frames").rows()
+    require(dict(duckdb.sql(by_flight).fetchall()) == dict(flights), "frames by flight differ from the table of flights")
+    said("frames by flight", f"{len(flights)} flights in DuckDB and polars")
 
 
 def check_croissant(folder, counts):
@@ -124,8 +143,7 @@ def check_mcap(folder, trajectories):
 
     first = {row["role"]: row["trajectory_id"] for row in reversed(trajectories)}
     for row in trajectories:
-        path = folder / row["mcap_path"]
-        counts = {}
+        path, counts = folder / row["mcap_path"], Counter()
         with path.open("rb") as file:
             reader = make_reader(file, validate_crcs=True, decoder_factories=[DecoderFactory()])
             require(reader.get_header().library == "cosfly", f"{path}: library")
@@ -136,16 +154,13 @@ def check_mcap(folder, trajectories):
             decode = row["trajectory_id"] == first[row["role"]]
             for _, channel, message, *decoded in reader.iter_decoded_messages() if decode else reader.iter_messages():
                 topic = channel.topic
-                require(message.log_time == round(counts.get(topic, 0) * row["dt_s"] * 1e9) or topic == "/captions", f"{path}: time of {topic}")
-                counts[topic] = counts.get(topic, 0) + 1
+                require(message.log_time == round(counts[topic] * row["dt_s"] * 1e9) or topic == "/captions", f"{path}: time of {topic}")
+                counts[topic] += 1
                 if decode:
                     check_message(row, topic, decoded[0], path)
-        for topic in FRAME_TOPICS:
-            require(counts.get(topic) == row["frames"], f"{path}: {counts.get(topic)} messages on {topic}")
-        for topic in [*PREVIEW_TOPICS, *ON_REQUEST]:
-            require(counts.get(topic, 0) in (0, row["frames"]), f"{path}: {counts.get(topic)} messages on {topic}")
-        for topic in ONCE_TOPICS:
-            require(counts.get(topic) == 1, f"{path}: {counts.get(topic)} messages on {topic}")
+        for topics, allowed in ((FRAME_TOPICS, [row["frames"]]), ([*PREVIEW_TOPICS, *ON_REQUEST], [0, row["frames"]]), (ONCE_TOPICS, [1])):
+            for topic in topics:
+                require(counts[topic] in allowed, f"{path}: {counts[topic]} messages on {topic}")
         require(sum(counts.values()) == row["mcap_messages"], f"{path}: number of messages")
     said("mcap, CRCs, protobuf", f"{len(trajectories)} logs, {len(first)} of them decoded")
 
@@ -186,19 +201,12 @@ def check_rerun(folder, trajectories):
     said("layouts/show_in_rerun.py, rerun rrd verify")
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path)
-    parser.add_argument("--cache", default=None, help="cache folder of the datasets library")
-    arguments = parser.parse_args()
-    folder = arguments.folder.resolve()
-    check_hashes(folder)
-    counts, trajectories = check_pyarrow(folder)
-    check_datasets(folder, counts, arguments.cache)
-    check_croissant(folder, counts)
-    check_mcap(folder, trajectories)
-    check_rerun(folder, trajectories)
-    print("read_back: all readers read everything")
-
-
-main()
+arguments = command_line("folder", cache=str)
+dataset = arguments.folder.resolve()
+check_hashes(dataset)
+rows_of_tables, flights = check_pyarrow(dataset)
+check_tables(dataset, arguments.cache)
+check_croissant(dataset, rows_of_tables)
+check_mcap(dataset, flights)
+check_rerun(dataset, flights)
+print("read_back: all readers read everything")
