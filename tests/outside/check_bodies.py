@@ -9,6 +9,7 @@ smallest distances.
 
 import sys
 from collections import defaultdict
+from itertools import groupby
 from pathlib import Path
 
 import numpy as np
@@ -59,12 +60,11 @@ def main(folder):
     bodies = defaultdict(lambda: defaultdict(dict))
     for row in rows(folder, "bodies", ["trajectory_id", "frame", "body_id", "kind", "feet_in_world_m", "heading_deg", "size_m"]):
         bodies[row["trajectory_id"]][row["frame"]][row["body_id"]] = row
-    nearest_two, nearest_flight, overlaps = np.inf, np.inf, 0
+    nearest_two = nearest_flight = np.inf
     for name, by_frame in bodies.items():
         least = flights[name]["min_clearance_m"]
         for frame, present in by_frame.items():
             # Other drones fly above whoever walks and drives.
-            flying = [it for it in present.values() if it["kind"] == "drone"]
             listed = [it for it in present.values() if it["kind"] != "drone"]
             places = np.array([it["feet_in_world_m"][:2] for it in listed])
             reach = np.array([np.hypot(*it["size_m"][:2]) / 2 for it in listed])
@@ -74,13 +74,12 @@ def main(folder):
                     apart = gap(listed[i], listed[j])
                     nearest_two = min(nearest_two, apart)
                     if apart < -1e-6:
-                        overlaps += 1
                         wrong.append(f"{name} frame {frame}: bodies {listed[i]['body_id']} and {listed[j]['body_id']} overlap by {-apart:.3f} m")
             here, there = frames[name][frame], frames[name].get(frame + 1)
             start, end = (place(row, "drone") for row in (here, there or here))
             for share in np.arange(BETWEEN) / BETWEEN if there else [0.0]:
                 drone = start + share * (end - start)
-                for body in listed + flying:
+                for body in present.values():
                     later = by_frame.get(frame + 1, {}).get(body["body_id"], body)
                     feet = np.array(body["feet_in_world_m"]) + share * (np.array(later["feet_in_world_m"]) - body["feet_in_world_m"])
                     if np.abs(drone - feet).max() > 40:
@@ -101,20 +100,17 @@ def main(folder):
         for frame, row in by_frame.items():
             if row["look_alikes"] != alike[name, frame]:
                 wrong.append(f"{name} frame {frame}: {alike[name, frame]} people are dressed like the target; the table says {row['look_alikes']}")
-        start = None
-        for frame in range(len(by_frame) + 1):
-            is_lost = frame < len(by_frame) and by_frame[frame]["visible_pixels"] == 0
-            if is_lost and start is None:
-                start = frame
-            if not is_lost and start is not None:
-                losses += 1
-                again = frame < len(by_frame)
-                expected = {"trajectory_id": name, "start_frame": start, "end_frame": frame, "duration_s": (frame - start) * flights[name]["dt_s"],
-                            "frames_out_of_view": sum(not by_frame[it]["in_view"] for it in range(start, frame)), "reacquired": again,
-                            "look_alikes": alike[name, frame] if again else None}
-                if stated.pop((name, start), None) != expected:
-                    wrong.append(f"{name}: the target is lost from frame {start} to {frame}; the table says otherwise")
-                start = None
+        for is_lost, run in groupby(range(len(by_frame)), lambda frame: by_frame[frame]["visible_pixels"] == 0):
+            lost = list(run)
+            start, end = lost[0], lost[-1] + 1
+            if not is_lost:
+                continue
+            losses, again = losses + 1, end < len(by_frame)
+            expected = {"trajectory_id": name, "start_frame": start, "end_frame": end, "duration_s": len(lost) * flights[name]["dt_s"],
+                        "frames_out_of_view": sum(not by_frame[it]["in_view"] for it in lost), "reacquired": again,
+                        "look_alikes": alike[name, end] if again else None}
+            if stated.pop((name, start), None) != expected:
+                wrong.append(f"{name}: the target is lost from frame {start} to {end}; the table says otherwise")
     wrong += [f"{name} frame {frame}: the table states a loss that is none" for name, frame in stated]
     print(f"{folder}: {sum(len(it) for it in bodies.values())} frames with bodies, two bodies {nearest_two:.3f} m apart at least, flights",
           f"{nearest_flight:.2f} m from bodies at least; {losses} losses; {len(wrong)} things wrong")

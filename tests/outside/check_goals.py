@@ -7,13 +7,12 @@ Then every claim is judged by brute force over tables `frames`, `bodies`, `objec
 those of the stated subject of goals that do not. Turns, times, lengths and paces of descriptions are judged by `walk_words.py`. Prints the numbers of goals, claims and skeletons (texts whose slots are blank).
 """
 
-import argparse
 import re
 from collections import Counter, defaultdict
 
 import numpy as np
 from goal_words import as_walked, read, skeleton
-from shared import Town, end_with, flown, is_in, pixel, place, rows, turned
+from shared import Town, command_line, end_with, flown, is_in, pixel, place, rows, turned
 from walk_words import Way, when_said, wrongs
 
 REACH_M = {"building": 10.0}
@@ -21,6 +20,11 @@ KIND_OF = {"tree": "tree_trunk", "parked_car": "car"}
 ON_FOOT = ("pedestrian", "child", "elder", "push_chair", "dog_walker", "runner")
 HIDERS = {"tree": {"tree_trunk", "tree_crown"}, "parked_car": {"car"}}
 WORN = {"people": ("top_colour", "trousers_colour", "has_backpack"), "flights": ("target_top_colour", "target_trousers_colour", "target_has_backpack")}
+
+
+# Kinds of bodies (none: the claim names one), whether they go from ahead to behind the target (1) or the other way, by what angle, how near.
+PASSED = {"overtakes": (ON_FOOT, 1, (0, 40), 3.6), "meets": (ON_FOOT, 1, (140, 180), np.inf),
+          "meets_vehicle": (None, 1, (140, 180), 8.5), "overtaken_by": (None, -1, (0, 40), 8.5)}
 
 
 class Flight:
@@ -82,7 +86,7 @@ class Flight:
         way = np.hypot(*(self.feet[end - 1, :2] - self.feet[start, :2]))
         return all(map(self.on_crossing, range(start, end))) and len(around) == 2 and not any(around) and way >= 5.0
 
-    def is_passed(self, kinds, top, ways, turned_by, start, end, reach=3.6):
+    def is_passed(self, kinds, top, ways, turned_by, reach, start, end):
         """Whether somebody goes from ahead to behind the target (ways 1), or from behind to ahead (-1), between two frames."""
         for it in self.people.get(start, []):
             later = next((its for its in self.people.get(end - 1, []) if its["instance"] == it["instance"]), None)
@@ -110,14 +114,13 @@ class Flight:
         if name == "turns":
             return self.way.turns_to(rest[0], start)
         if name == "turns_in_all":
-            events = self.way.events()
-            return self.way.clear_turns() <= int(rest[0]) <= len(events)
+            return self.way.clear_turns() <= int(rest[0]) <= len(self.way.events())
         if name == "no_turn":
             return self.way.sharpest(start, end) < 60
-        if name in ("stops", "stands"):
-            still = self.speed < 0.05
-            if name == "stands":
-                return still[frames].all()
+        still = self.speed < 0.05
+        if name == "stands":
+            return still[frames].all()
+        if name == "stops":
             around = [still[frame] for frame in (start - 1, end) if 0 <= frame < self.count]
             return still[frames].all() and not any(around) and abs((end - start) * self.dt - int(rest[0])) <= 0.51
         if name == "passes":
@@ -125,12 +128,9 @@ class Flight:
             return is_after and self.passes(rest[0], rest[1], int(rest[2]), start, end)
         if name == "crosses":
             return self.crosses(start, end)
-        if name == "overtakes":
-            return self.is_passed(ON_FOOT, rest[0], 1, (0, 40), start, end)
-        if name == "meets_vehicle":
-            return self.is_passed((rest[0],), None, 1, (140, 180), start, end, 8.5)
-        if name == "overtaken_by":
-            return self.is_passed((rest[0],), None, -1, (0, 40), start, end, 8.5)
+        if name in PASSED:
+            kinds, ways, turned_by, reach = PASSED[name]
+            return self.is_passed(kinds or rest, rest[0] if kinds else None, ways, turned_by, reach, start, end)
         if name == "lost":
             behind, seconds, end_of = rest
             hidden = (self.pixels[frames] == 0).all() and all(self.pixels[frame] > 0 for frame in (start - 1, end) if 0 <= frame < self.count)
@@ -140,12 +140,12 @@ class Flight:
             return (self.pixels[frames] > 0).all() and (self.share[frames] < 0.5).all() and self.hidden_by(rest[0], frames)
         if name == "walks_with":
             return self.walks_with(int(rest[0]), start, end)
-        if name == "meets":
-            return self.is_passed(ON_FOOT, rest[0], 1, (140, 180), start, end, np.inf)
         raise SystemExit(f"unknown claim {claim}")
 
 
-SUBJECTS = {"wears": "clothes", "distance": "distance", "turns": "turn", "turns_in_all": "turn", "no_turn": "turn", "stops": "stop", "stands": "stop", "passes": "landmark", "lost": "sight", "partly_hidden": "sight", "walks_with": "people", "meets": "people", "overtakes": "people", "crosses": "landmark", "meets_vehicle": "vehicles", "overtaken_by": "vehicles"}
+SUBJECTS = {claim: subject for subject, claims in {
+    "clothes": "wears", "distance": "distance", "turn": "turns turns_in_all no_turn", "stop": "stops stands", "landmark": "passes crosses",
+    "sight": "lost partly_hidden", "people": "walks_with meets overtakes", "vehicles": "meets_vehicle overtaken_by"}.items() for claim in claims.split()}
 
 
 def judge(goal, flight, wrong, counts):
@@ -197,9 +197,8 @@ def judge_dialogue(goal, flight, where, wrong):
         own = [flight.row[column] for column in WORN["flights"]][:2]
         if any([it["top_colour"], it["trousers_colour"]] == own for it in others):
             wrong.append(f"{where}: the correction fits others as well")
-        if "other" in goal["lines"][2] or "另一个" in goal["lines"][2]:
-            if len(others) != 1:
-                wrong.append(f"{where}: `the other one` of {len(others) + 1} people")
+        if len(others) != 1 and ("other" in goal["lines"][2] or "另一个" in goal["lines"][2]):
+            wrong.append(f"{where}: `the other one` of {len(others) + 1} people")
     elif goal["false_subject"] == "turn":
         turns = [int(said.split(" @ ")[1].split("..")[0]) for said in goal["claims"] if said.startswith("turns")]
         if any(flight.way.turns_to(pilot[0][1], frame) and not flight.way.turns_to("right" if pilot[0][1] == "left" else "left", frame) for frame in turns):
@@ -245,20 +244,12 @@ def check(folder, texts):
     return wrong
 
 
-def main():
-    arguments = argparse.ArgumentParser()
-    arguments.add_argument("folders", nargs="+")
-    arguments.add_argument("--least-skeletons", type=int, default=0)
-    given = arguments.parse_args()
-    texts = []
-    wrong = [it for folder in given.folders for it in check(folder, texts)]
-    for language in ("en", "zh"):
-        own = [goal for goal in texts if goal["language"] == language]
-        different = {skeleton(" / ".join(goal["lines"]), language) for goal in own}
-        print(f"{language}: {len(different)} skeletons in {len(own)} goals")
-        if len(different) < given.least_skeletons:
-            wrong.append(f"{language} has {len(different)} skeletons; wanted are {given.least_skeletons}")
-    end_with(wrong)
-
-
-main()
+given, texts = command_line("folders+", least_skeletons=0), []
+problems = [it for folder in given.folders for it in check(folder, texts)]
+for language in ("en", "zh"):
+    own = [goal for goal in texts if goal["language"] == language]
+    different = {skeleton(" / ".join(goal["lines"]), language) for goal in own}
+    print(f"{language}: {len(different)} skeletons in {len(own)} goals")
+    if len(different) < given.least_skeletons:
+        problems.append(f"{language} has {len(different)} skeletons; wanted are {given.least_skeletons}")
+end_with(problems)

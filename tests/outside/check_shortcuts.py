@@ -9,14 +9,12 @@ the boxes of targets and others: all, those as far away, and those of them who a
 as the target, and those of them who fill as much of their boxes.
 """
 
-import argparse
 import json
-import sys
 from collections import defaultdict
 from pathlib import Path
 
 import numpy as np
-from shared import axes_of, flown, messages, picture, place, turned
+from shared import axes_of, command_line, end_with, flown, messages, picture, place, turned
 
 NEAR, WHOLE, SIDE_DEG, FULL = 0.1, 0.1, 30, 0.08
 BRIGHTNESS = [0.2126, 0.7152, 0.0722]
@@ -42,18 +40,18 @@ def probe(by_flight):
     return {"auc": mean, "standard_error": error, "flights": number, "frames": int(counts.sum())}
 
 
-def body(flight, frame, feet, height_m, box, pixels, heading_deg, top, backpack):
+def body(flight, frame, feet, height_m, seen, heading_deg, looks, of):
     """Box, distance from the middle, distance from the camera, the height in metres that the picture shows (none if partly hidden), the side that
     is seen (0 degrees from behind), the share of the box that is filled, and what the tables say of the looks."""
     axes, away = axes_of(frame), np.array(feet) - place(frame, "drone")
+    box, pixels, top, backpack = seen["visible_box_px"], seen["visible_pixels"], looks[f"{of}top_linear_rgb"], looks[f"{of}has_backpack"]
 
     def row(it):
         ahead, _, up = it @ axes
-        return flight["camera_cy_px"] - flight["camera_focal_px"] * up / ahead if ahead > 1e-6 else None
+        return flight["camera_cy_px"] - flight["camera_focal_px"] * up / ahead if ahead > 1e-6 else np.nan
 
-    low, high = row(away), row(away + [0, 0, height_m])
-    metres = None
-    if low is not None and high is not None and low > high:
+    low, high, metres = row(away), row(away + [0, 0, height_m]), None
+    if low > high:
         most = WHOLE * (low - high)
         metres = height_m * (box[3] - box[1]) / (low - high) if box[1] <= high + most and box[3] >= low - most else None
     middle = np.array([box[0] + box[2] - flight["camera_width_px"], box[1] + box[3] - flight["camera_height_px"]]) / 2
@@ -70,10 +68,8 @@ def shown(folder):
         flight = flights[name]
         if flight["expert_id"] or it["visible_box_px"] is None:
             continue
-        target = body(flight, it, place(it, "target"), flight["target_height_m"], it["visible_box_px"],
-                      it["visible_pixels"], it["target_heading_deg"], flight["target_top_linear_rgb"], flight["target_has_backpack"])
-        others = [body(flight, it, other["feet_in_world_m"], other["size_m"][2], other["visible_box_px"], other["visible_pixels"],
-                       other["heading_deg"], other["top_linear_rgb"], other["has_backpack"])
+        target = body(flight, it, place(it, "target"), flight["target_height_m"], it, it["target_heading_deg"], flight, "target_")
+        others = [body(flight, it, other["feet_in_world_m"], other["size_m"][2], other, other["heading_deg"], other, "")
                   for other in people[name, it["frame"]] if other["kind"] == flight["target_kind"]]
         frames.append((name, it["frame"], target, others))
     return flights, people, frames
@@ -181,11 +177,7 @@ def differences(own, doctor, path="shortcuts"):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path)
-    parser.add_argument("--doctor", type=Path, help="JSON file of cosfly doctor, which must agree")
-    parser.add_argument("--pictures", type=int, default=0, help="read the pictures of so many flights")
-    arguments = parser.parse_args()
+    arguments = command_line("folder", doctor=Path, pictures=0)
     flights, people, frames = shown(arguments.folder)
     own = {"frames": len(frames), **in_pictures(flights, frames), **of_looks(flights, people)}
     for name in ("place", "height", "height_in_the_same_place"):
@@ -197,11 +189,8 @@ def main():
         say(f"place in random crops of {share:.2f} of the picture ({100 * kept:.0f} % of the frames)", found)
     for name, found in of_pixels(arguments.folder, flights, frames, arguments.pictures).items() if arguments.pictures else ():
         say(name, found)
-    wrong = differences(own, json.loads(arguments.doctor.read_text())["shortcuts"]) if arguments.doctor else []
-    print(*wrong, sep="\n")
     if arguments.doctor:
-        print("the doctor agrees" if not wrong else f"{len(wrong)} figures differ")
-    return bool(wrong)
+        end_with(differences(own, json.loads(arguments.doctor.read_text())["shortcuts"]))
 
 
-sys.exit(main())
+main()

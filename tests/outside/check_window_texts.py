@@ -16,8 +16,6 @@ from goal_words import as_walked
 from shared import IN_CHINESE, Town, flown, pixel, place, require, rows, turned
 
 NUMBERS = {word: count for words in (["no", "one", "two", "three", "four", "five", "six"], "零一两三四五六") for count, word in enumerate(words)}
-
-
 LANDMARKS = {  # words, and kind in table `objects`
     "traffic_light": ("a traffic light", "一处红绿灯"), "lamp": ("a street lamp", "一盏路灯"),
     "traffic_sign": ("a traffic sign", "一块交通标志牌"), "tree_trunk": ("a tree", "一棵树"),
@@ -67,15 +65,15 @@ class Picture:
     def along(self, where):
         """People who walk along with the target, and of whom it is `where`."""
         heading = np.radians(self.frame["target_heading_deg"])
-        found = []
-        for person in self.people:
+
+        def is_along(person):
             x, y, _ = person["feet_in_world_m"] - self.feet
             before, aside = np.cos(heading) * x + np.sin(heading) * y, np.cos(heading) * y - np.sin(heading) * x
             is_there = {"ahead": before < 0, "behind": before > 0, "beside": abs(before) < 1}[where]
             same_way = abs(turned(person["heading_deg"], self.frame["target_heading_deg"])) < 35
-            if is_there and same_way and abs(before) < 6.5 and abs(aside) < 2 and person["speed_mps"] > 0.2:
-                found.append(person)
-        return found
+            return is_there and same_way and abs(before) < 6.5 and abs(aside) < 2 and person["speed_mps"] > 0.2
+
+        return list(filter(is_along, self.people))
 
     def distance(self, feet):
         return np.linalg.norm(feet - self.eye)

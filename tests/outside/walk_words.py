@@ -158,16 +158,13 @@ def when_said(text):
 
 def numbers(text, language):
     """Length, time and pace as a description states them; none where it does not."""
-    if language == "en":
-        sentences = re.split(r"(?<=[.])\s", text)
-        own = [it for it in sentences if re.search(r"\d m\b(?!/s)", it) and re.search(r"\d seconds?", it)]
-        patterns = r"([\d.]+) m(?![/\w])", r"(\d+) seconds?", r"([\d.]+) m/s"
-    else:
-        own = [it for it in text.split("。") if re.search(r"\d米(?!/)", it) and re.search(r"\d秒", it)]
-        patterns = r"([\d.]+)米(?!/)", r"(\d+)秒", r"(?:每秒[^\d]*([\d.]+)米|([\d.]+)米/秒)"
-    if not own:
+    end, stated, patterns = {
+        "en": (r"(?<=[.])\s", (r"\d m\b(?!/s)", r"\d seconds?"), (r"([\d.]+) m(?![/\w])", r"(\d+) seconds?", r"([\d.]+) m/s")),
+        "zh": ("。", (r"\d米(?!/)", r"\d秒"), (r"([\d.]+)米(?!/)", r"(\d+)秒", r"(?:每秒[^\d]*([\d.]+)米|([\d.]+)米/秒)")),
+    }[language]
+    sentence = next((it for it in re.split(end, text) if all(re.search(pattern, it) for pattern in stated)), None)
+    if sentence is None:
         return None, None, None, ""
-    sentence = own[0]
     pace = re.search(patterns[2], sentence)
     rest = re.sub(patterns[2], "", sentence) if language == "zh" else sentence
     way, time = (re.search(pattern, rest) for pattern in patterns[:2])

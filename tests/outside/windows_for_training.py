@@ -16,33 +16,27 @@ import pyarrow.dataset as ds
 from shared import json_of, require, rows, said, turned
 
 
-def steps(column):
-    """A list column of increments as an array (windows, increments, 6)."""
+def steps(column, numbers=6):
+    """A list column of increments as an array (windows, increments, 6); of boxes with 4 numbers."""
     column = column.combine_chunks()
-    return column.flatten().to_numpy().reshape(len(column), -1, 6)
+    return column.flatten().to_numpy().reshape(len(column), -1, numbers)
 
 
-def boxes(column):
-    column = column.combine_chunks()
-    return column.flatten().to_numpy().reshape(len(column), -1, 4)
+def of_role(windows, role):
+    return windows.filter(windows["role"].to_numpy() == role)
 
 
-def denoising(windows):
-    """The perturbed flight is seen, the expert's poses in the same frames are learnt."""
-    of_twins = windows.filter(windows["role"].to_numpy() == 1)
-    return steps(of_twins["input_steps_in_body"]), steps(of_twins["correction_in_body"])
-
-
-def prediction(windows, role):
-    """What the expert does next, seen from the expert's own (role 0) or the perturbed (role 1) flight."""
-    of_role = windows.filter(windows["role"].to_numpy() == role)
-    return steps(of_role["input_steps_in_body"]), steps(of_role["waypoint_deltas_in_body"])
+def learnt(windows, role, answer):
+    """What is seen of a flight and what is learnt: `correction`, the expert's poses in the same frames; `waypoint_deltas`, what the expert does
+    next. The flight is the expert's own (role 0) or the perturbed one (role 1)."""
+    chosen = of_role(windows, role)
+    return steps(chosen["input_steps_in_body"]), steps(chosen[f"{answer}_in_body"])
 
 
 def mixed(windows, share_of_experts, seed):
     """DAgger-style: the expert's windows and, for the rest, the perturbed ones with the expert's answer."""
     draws = np.random.default_rng(seed)
-    inputs, answers = zip(*(prediction(windows, role) for role in (0, 1)))
+    inputs, answers = zip(*(learnt(windows, role, "waypoint_deltas") for role in (0, 1)))
     count = min(len(part) for part in inputs)
     from_expert = draws.random(count) < share_of_experts
     pick = lambda parts: np.where(from_expert[:, None, None], parts[0][:count], parts[1][:count])
@@ -51,11 +45,10 @@ def mixed(windows, share_of_experts, seed):
 
 def contrastive_pairs(windows):
     """The same moments as the expert and as the perturbed flight saw them."""
-    columns = ["expert_id", "start_frame", "input_steps_in_body"]
-    role = windows["role"].to_numpy()
-    experts, twins = windows.filter(role == 0).select(columns), windows.filter(role == 1).select(columns)
-    places = {key: row for row, key in enumerate(zip(experts["expert_id"].to_pylist(), experts["start_frame"].to_pylist()))}
-    partner = [places[key] for key in zip(twins["expert_id"].to_pylist(), twins["start_frame"].to_pylist())]
+    experts, twins = (of_role(windows, role) for role in (0, 1))
+    moments = lambda table: zip(table["expert_id"].to_pylist(), table["start_frame"].to_pylist())
+    places = {moment: row for row, moment in enumerate(moments(experts))}
+    partner = [places[moment] for moment in moments(twins)]
     return steps(experts["input_steps_in_body"])[partner], steps(twins["input_steps_in_body"])
 
 
@@ -79,14 +72,13 @@ def check_against_poses(folder, windows):
 
 
 def check_eval(cosfly, folder, windows, axes):
-    of_twins = windows.filter(windows["role"].to_numpy() == 1)
+    of_twins = of_role(windows, 1)
     deltas = steps(of_twins[f"waypoint_deltas_in_{axes}"])
     with tempfile.TemporaryDirectory() as scratch:
         path = Path(scratch) / "perfect.jsonl"
-        with path.open("w") as file:
-            for row, delta in zip(of_twins.select(["trajectory_id", "start_frame"]).to_pylist(), deltas):
-                line = {"trajectory_id": row["trajectory_id"], "frame": row["start_frame"], "waypoint_deltas": delta.tolist()}
-                file.write(json.dumps(line) + "\n")
+        places = zip(of_twins["trajectory_id"].to_pylist(), of_twins["start_frame"].to_pylist())
+        lines = [{"trajectory_id": name, "frame": frame, "waypoint_deltas": delta.tolist()} for (name, frame), delta in zip(places, deltas)]
+        path.write_text("".join(json.dumps(line) + "\n" for line in lines))
         splits = sorted({path.name.split("-")[0] for path in (folder / "data" / "windows").iterdir()})
         options = [part for split in splits for part in ("--split", split)]
         report = json_of(cosfly, "eval", folder, path, "--frame", axes, "--json", "--out", Path(scratch) / "out", *options)
@@ -96,26 +88,19 @@ def check_eval(cosfly, folder, windows, axes):
     said(f"cosfly eval --frame {axes}", f"{count} windows, FDE {fde:.1e} m")
 
 
-def main():
-    cosfly, folder = sys.argv[1], Path(sys.argv[2])
-    windows = ds.dataset(folder / "data" / "windows").to_table()
-    require(windows.num_rows > 0, "there are no windows")
-    check_against_poses(folder, windows)
-    for name, (seen, learnt) in {
-        "denoising": denoising(windows),
-        "prediction": prediction(windows, 0),
-        "mixed": mixed(windows, 0.5, 0),
-        "contrastive pairs": contrastive_pairs(windows),
-    }.items():
-        require(len(seen) == len(learnt) > 0 and np.isfinite(seen).all() and np.isfinite(learnt).all(), name)
-        said(name, f"{seen.shape} {learnt.shape}")
-    require(not prediction(windows.filter(windows["role"].to_numpy() == 0), 0)[0].size == 0, "no expert's windows")
-    ranks = windows["subset_rank"].to_numpy()
-    quarter, half = set(np.flatnonzero(ranks < 0.25)), set(np.flatnonzero(ranks < 0.5))
-    require(quarter <= half, "subsets do not nest")
-    require(boxes(windows["expert_boxes_px"]).shape[1] == steps(windows["expert_steps_in_world"]).shape[1] + 1, "boxes")
-    for axes in ("world", "body"):
-        check_eval(cosfly, folder, windows, axes)
-
-
-main()
+dataset = Path(sys.argv[2])
+table = ds.dataset(dataset / "data" / "windows").to_table()
+require(table.num_rows > 0, "there are no windows")
+check_against_poses(dataset, table)
+for name, (seen, answers) in {
+    "denoising": learnt(table, 1, "correction"), "prediction": learnt(table, 0, "waypoint_deltas"),
+    "mixed": mixed(table, 0.5, 0), "contrastive pairs": contrastive_pairs(table),
+}.items():
+    require(len(seen) == len(answers) > 0 and np.isfinite(seen).all() and np.isfinite(answers).all(), name)
+    said(name, f"{seen.shape} {answers.shape}")
+ranks = table["subset_rank"].to_numpy()
+quarter, half = set(np.flatnonzero(ranks < 0.25)), set(np.flatnonzero(ranks < 0.5))
+require(quarter <= half, "subsets do not nest")
+require(steps(table["expert_boxes_px"], 4).shape[1] == steps(table["expert_steps_in_world"]).shape[1] + 1, "boxes")
+for axes in ("world", "body"):
+    check_eval(sys.argv[1], dataset, table, axes)
