@@ -11,14 +11,12 @@ import json
 import sys
 
 import numpy as np
-from shared import agree, json_of, require, said
+from shared import agree, json_of, require, said, turned
 
 
 def random_windows(rng, windows=300, steps=5):
     truth = np.concatenate([rng.uniform(-60, 60, (windows, steps, 3)), rng.uniform(-180, 180, (windows, steps, 3))], axis=2)
-    scale = rng.choice([0.1, 0.7, 3.0, 40.0], (windows, 1, 1))
-    noise = rng.normal(0, 1, (windows, steps, 6)) * scale
-    return truth, truth + noise
+    return truth, truth + rng.normal(0, 1, (windows, steps, 6)) * rng.choice([0.1, 0.7, 3.0, 40.0], (windows, 1, 1))
 
 
 def check_waypoints(ours, truth, predicted):
@@ -30,21 +28,20 @@ def check_waypoints(ours, truth, predicted):
 
     each = np.array(ours["windows"])
 
-    def path(poses, yaw_only):
-        angles = poses[:, 4] if yaw_only else np.zeros(len(poses))
-        quaternions = Rotation.from_euler("z", angles[:, None], degrees=True).as_quat()[:, [3, 0, 1, 2]]
+    def path(poses):
+        quaternions = Rotation.from_euler("z", poses[:, 4, None], degrees=True).as_quat()[:, [3, 0, 1, 2]]
         return trajectory.PoseTrajectory3D(poses[:, :3], quaternions, np.arange(len(poses)) * 0.5)
 
-    ade, fde, yaw = [], [], []
-    for true, guess in zip(truth, predicted):
-        ape = metrics.APE(metrics.PoseRelation.translation_part)
-        ape.process_data((path(true, False), path(guess, False)))
-        ade.append(ape.get_statistic(metrics.StatisticsType.mean))
-        fde.append(ape.error[-1])
-        turn = metrics.APE(metrics.PoseRelation.rotation_angle_deg)
-        turn.process_data((path(true, True), path(guess, True)))
-        yaw.append(turn.error)
-    yaw = np.array(yaw)
+    def errors(relation):
+        found = [metrics.APE(relation) for _ in truth]
+        for ape, true, guess in zip(found, truth, predicted):
+            ape.process_data((path(true), path(guess)))
+        means = [ape.get_statistic(metrics.StatisticsType.mean) for ape in found]
+        return means, np.array([ape.error for ape in found])
+
+    ade, away = errors(metrics.PoseRelation.translation_part)
+    _, yaw = errors(metrics.PoseRelation.rotation_angle_deg)
+    fde = away[:, -1]
     agree("ADE against evo", each[:, 0], ade)
     agree("FDE against evo", each[:, 1], fde)
     agree("yaw error of last waypoints against evo", each[:, 2], yaw[:, -1])
@@ -61,7 +58,7 @@ def check_waypoints(ours, truth, predicted):
     from sklearn.metrics import mean_absolute_error
 
     wrapped = (predicted - truth).reshape(-1, 6)
-    wrapped[:, 3:] = (wrapped[:, 3:] + 180) % 360 - 180
+    wrapped[:, 3:] = turned(wrapped[:, 3:], 0)
     zeros = np.zeros_like(wrapped)
     means = ours["means"]
     agree("MAE against scikit-learn", means["mae"], mean_absolute_error(zeros, wrapped))
@@ -71,7 +68,7 @@ def check_waypoints(ours, truth, predicted):
     ahead = Rotation.from_euler("z", truth[:, -1, 4:5], degrees=True).inv().apply(ends[:, :3])
     agree("lasting error by scipy's rotations", means["lasting_m"], np.linalg.norm(ahead.mean(axis=0)))
     agree("lasting turn by hand", means["lasting_turn_deg"], np.linalg.norm(ends[:, 3:5].mean(axis=0)))
-    fde, last = np.array(fde), yaw[:, -1]
+    last = yaw[:, -1]
     for key, share in {
         "sr_0_5m": fde <= 0.5, "sr_1m": fde <= 1, "sr_2m": fde <= 2, "rot_acc_1deg": last <= 1, "rot_acc_5deg": last <= 5,
         "joint_sr_0_5m_1deg": (fde <= 0.5) & (last <= 1), "joint_sr_1m_5deg": (fde <= 1) & (last <= 5), "hard_fail": fde > 10,
@@ -90,14 +87,8 @@ def check_interval(ours):
     said("95 % interval near that of scipy", f"{ours['ade_interval']} {tuple(map(float, theirs))}")
 
 
-def random_boxes(rng, count):
-    corners = np.sort(rng.uniform(0, 200, (count, 2, 2)), axis=1)
-    return corners.reshape(count, 4)
-
-
-def xywh(boxes):
-    boxes = np.asarray(boxes, dtype=float).reshape(-1, 4)
-    return np.concatenate([boxes[:, :2], boxes[:, 2:] - boxes[:, :2]], axis=1)
+def xywh(box):
+    return np.array([[*box[:2], *np.subtract(box[2:], box[:2])]], dtype=float)
 
 
 def check_boxes(ours, pairs):
@@ -113,16 +104,12 @@ def rows_of(truth, predicted):
     return [{"truth": t.tolist(), "predicted": p.tolist()} for t, p in zip(truth, predicted)]
 
 
-def main():
-    rng = np.random.default_rng(1)
-    truth, predicted = random_windows(rng)
-    boxes = random_boxes(rng, 200)
-    pairs = [[box.tolist(), (np.sort((box + rng.normal(0, spread, 4)).reshape(2, 2), axis=0).reshape(4)).tolist()] for box, spread in zip(boxes, np.tile([1, 5, 20, 100], 50))]
-    ours = json_of(sys.argv[1], input=json.dumps({"windows": rows_of(truth, predicted), "boxes": pairs}))
-
-    check_waypoints(ours, truth, predicted)
-    check_interval(ours)
-    check_boxes(ours, pairs)
-
-
-main()
+rng = np.random.default_rng(1)
+truth, predicted = random_windows(rng)
+boxes = np.sort(rng.uniform(0, 200, (200, 2, 2)), axis=1)
+moved = np.sort(boxes + rng.normal(0, np.tile([1, 5, 20, 100], 50)[:, None, None], boxes.shape), axis=1)
+pairs = np.stack([boxes, moved], axis=1).reshape(-1, 2, 4).tolist()
+ours = json_of(sys.argv[1], input=json.dumps({"windows": rows_of(truth, predicted), "boxes": pairs}))
+check_waypoints(ours, truth, predicted)
+check_interval(ours)
+check_boxes(ours, pairs)

@@ -8,16 +8,15 @@ text from facts of which one is changed, or with a thing or a direction that no 
 caught, by their kind, and the share of true texts that are refused, and fails beyond the limits below.
 """
 
-import argparse
 import copy
 import json
+import math
 import random
 import sys
 from collections import Counter, defaultdict
 from pathlib import Path
 
-from made_up_flights import flights as made_up_flights
-from shared import COLOURS, IN_CHINESE, run
+from shared import COLOURS, IN_CHINESE, command_line, run
 
 LEAST_CAUGHT, MOST_REFUSED = 0.98, 0.02
 DIRECTIONS = "north northeast east southeast south southwest west northwest".split()
@@ -27,6 +26,30 @@ EN_DIGITS, ZH_DIGITS = "zero one two three four five six seven eight nine ten".s
 
 def stepped(value, step):
     return int(round(value / step) * step)
+
+
+def made_up_flight(rng):
+    """Facts of a flight: lengths, angles and times that fit together, any turns, stops and clothes."""
+    walks = rng.random() < 0.87
+    aside, altitude = rng.uniform(4, 45), rng.choice([0.2] + [rng.uniform(1, 40) for _ in range(3)])
+    aimed = math.degrees(math.atan2(altitude - 1, aside)) + rng.uniform(-3, 3)
+    speed = rng.uniform(0.6, 1.9)
+    stops, turns = [], []
+    if walks:
+        stops = [{"frame": 10 * i, "duration_s": rng.choice([1.5, 2.0, 3.0, 4.0, 6.5])} for i in range(rng.choice([0, 0, 1, 1, 2, 3, 4]))]
+        kinds = [rng.choice(["left", "right", "left", "right", "around"]) for _ in range(rng.choice([0, 0, 1, 1, 2, 2, 3, 4, 5, 6]))]
+        turns = [{"frame": 20 * i + 5, "angle_deg": 90.0, "kind": kind} for i, kind in enumerate(kinds)]
+    standing = sum(stop["duration_s"] for stop in stops)
+    duration = max(rng.choice([rng.uniform(8, 30), rng.uniform(30, 160)]), standing + 6)
+    directions = DIRECTIONS[2:] + DIRECTIONS[:2]
+    start = rng.choice(directions)
+    return {
+        "walks": walks, "start_direction": start, "end_direction": rng.choice(directions) if turns else start, "turns": turns, "stops": stops,
+        "duration_s": duration, "way_m": speed * (duration - standing) if walks else 0.0, "walking_speed_mps": speed if walks else 0.0,
+        "distance_m": math.hypot(aside, altitude), "altitude_m": altitude, "visibility": 0.9,
+        "pitch_down_deg": rng.choice([aimed] * 3 + [rng.uniform(-20, 5), 0.0, rng.uniform(-30, 70)]),
+        "wear": None if rng.random() < 0.15 else {"top": rng.choice(COLOURS).capitalize(), "trousers": rng.choice(COLOURS).capitalize(), "backpack": rng.random() < 0.5},
+    }
 
 
 class Flight:
@@ -176,13 +199,9 @@ def judged(program, facts, language, texts):
 
 
 def main():
-    arguments = argparse.ArgumentParser()
-    arguments.add_argument("program")
-    arguments.add_argument("--texts", type=int, default=1000)
-    arguments.add_argument("--show", type=int, default=10)
-    arguments.add_argument("--seed", type=int, default=1)
-    given = arguments.parse_args()
-    facts = made_up_flights(120, given.seed)
+    given = command_line("program", texts=1000, show=10, seed=1)
+    stream = random.Random(given.seed)
+    facts = {f"flight-{number:03}": made_up_flight(stream) for number in range(120)}
     flights = {name: Flight(it) for name, it in facts.items()}
     is_good = True
     for language in ("en", "zh"):
