@@ -36,22 +36,16 @@ def coco():
             anns = data.imgToAnns[image["id"]]
             covered = np.zeros((image["height"], image["width"]), int)
             for ann in anns:
-                rle = ann["segmentation"]
-                binary = data.annToMask(ann)
+                rle, binary = ann["segmentation"], data.annToMask(ann)
                 covered += binary
-                assert masks.area(rle) == binary.sum() == ann["area"] > 0
-                assert list(masks.toBbox(rle)) == ann["bbox"]
-                again = masks.encode(np.asfortranarray(binary))
-                assert again["counts"].decode() == rle["counts"], "the same bytes as pycocotools writes"
-                things += 1
+                assert masks.area(rle) == binary.sum() == ann["area"] > 0 and list(masks.toBbox(rle)) == ann["bbox"]
+                assert masks.encode(np.asfortranarray(binary))["counts"].decode() == rle["counts"], "the same bytes as pycocotools writes"
             assert covered.max() <= 1, "no pixel belongs to two things"
-            target = [ann for ann in anns if ann["is_target"]]
-            assert len(target) == (row["visible_pixels"] > 0)
-            for ann in target:
-                left, top, right, bottom = row["visible_box_px"]
-                assert ann["area"] == row["visible_pixels"] and ann["category_id"] == 12
-                assert ann["bbox"] == [left, top, right - left, bottom - top]
-                seen += 1
+            target = [(ann["area"], ann["category_id"], ann["bbox"]) for ann in anns if ann["is_target"]]
+            left, top, right, bottom = row["visible_box_px"] or [0] * 4
+            shown = [(row["visible_pixels"], 12, [left, top, right - left, bottom - top])]
+            assert target == (shown if row["visible_pixels"] else [])
+            things, seen = things + len(anns), seen + len(target)
     assert seen
     return f"{things} things, the target in {seen} frames"
 
@@ -62,9 +56,8 @@ def web_dataset():
     assert len(shards) >= len(splits)
     whole = webdataset.WebDataset(shards, shardshuffle=False)
     for sample in whole.decode("pil"):
-        facts = sample["json"]
-        row = frames[facts["trajectory_id"], facts["frame"]]
-        size = flights[facts["trajectory_id"]]["camera_width_px"], flights[facts["trajectory_id"]]["camera_height_px"]
+        facts, row = sample["json"], row_of(sample)
+        size = tuple(flights[facts["trajectory_id"]][f"camera_{side}_px"] for side in ("width", "height"))
         assert sample["rgb.jpg"].size == size
         assert sample["__key__"] == f"{facts['trajectory_id'].replace('.', '_')}_{facts['frame']:06d}"
         assert abs(facts["drone_pose"][0] - row["drone_x_m"]) < 1e-9 and facts["split"] == row["split"]
@@ -74,15 +67,16 @@ def web_dataset():
     # Whatever the pictures are decoded to, numbers stay as they are.
     for decoded in (whole.decode(), whole.decode("rgb"), whole.decode("pil"), whole.decode("torchrgb8") if torch_is_there else whole.decode("rgb8")):
         sample = next(iter(decoded))
-        row = frames[sample["json"]["trajectory_id"], sample["json"]["frame"]]
-        labels_of(sample, row, sample["depth.npy.gz"].shape[::-1])
+        labels_of(sample, row_of(sample), sample["depth.npy.gz"].shape[::-1])
     found = datasets.load_dataset(str(root), split=splits[0], streaming=True, cache_dir=cache)
     first = next(iter(found))
-    row = frames[first["json"]["trajectory_id"], first["json"]["frame"]]
     kinds = {"depth.npy.gz": np.float32, "semantic.npy.gz": np.uint8, "instance.npy.gz": np.uint32}
-    parts = {name: np.array(first[name], kind) for name, kind in kinds.items()}
-    labels_of(parts, row, first["rgb.jpg"].size)
+    labels_of({name: np.array(first[name], kind) for name, kind in kinds.items()}, row_of(first), first["rgb.jpg"].size)
     return f"{samples} samples in {len(shards)} shards"
+
+
+def row_of(sample):
+    return frames[sample["json"]["trajectory_id"], sample["json"]["frame"]]
 
 
 def labels_of(sample, row, size):

@@ -18,8 +18,6 @@ from evo.tools import file_interface
 from shared import rows
 
 folder, cache = Path(sys.argv[1]), Path(sys.argv[2])
-
-
 flights = rows(folder, "trajectories", ["trajectory_id", "frames", "mcap_path"])
 ids = {flight["trajectory_id"] for flight in flights}
 
@@ -27,20 +25,15 @@ ids = {flight["trajectory_id"] for flight in flights}
 viewpoint = parquet.read_table(folder / "data/viewpoint")
 kinds = {field.name: field.type for field in viewpoint.schema}
 assert kinds == {
-    "trajectory_id": pyarrow.string(),
-    "side": pyarrow.string(),
-    "mean_distance_m": pyarrow.float64(),
-    "mean_elevation_deg": pyarrow.float64(),
-    "losses": pyarrow.int64(),
-    "longest_loss_s": pyarrow.float64(),
-    "always_in_view": pyarrow.bool_(),
-    "instruction": pyarrow.string(),
+    "trajectory_id": pyarrow.string(), "side": pyarrow.string(), "instruction": pyarrow.string(), "always_in_view": pyarrow.bool_(),
+    "mean_distance_m": pyarrow.float64(), "mean_elevation_deg": pyarrow.float64(), "longest_loss_s": pyarrow.float64(), "losses": pyarrow.int64(),
 }, kinds
 assert sorted(viewpoint["trajectory_id"].to_pylist()) == sorted(ids)
 frames = parquet.read_table(folder / "data/frames").to_pandas()
+of_flight = {name: own.sort_values("frame") for name, own in frames.groupby("trajectory_id")}
 captions = {(row["trajectory_id"], row["text"]) for row in rows(folder, "captions") if (row["language"], row["style"]) == ("en", "instruction")}
 for row in viewpoint.to_pylist():
-    own = frames[frames.trajectory_id == row["trajectory_id"]]
+    own = of_flight[row["trajectory_id"]]
     assert math.isclose(row["mean_distance_m"], own.distance_m.mean(), abs_tol=1e-9), row
     assert row["always_in_view"] == bool(own.in_view.all()), row
     assert (row["trajectory_id"], row["instruction"]) in captions, row
@@ -51,8 +44,7 @@ assert [(row["trajectory_id"], row["row"]) for row in losses] == sorted({(row["t
 lost = frames.visible_by_rays < 0.95
 assert sum(row["frames"] for row in losses) == int(lost.sum()), (len(losses), int(lost.sum()))
 for row in losses:
-    own = frames[frames.trajectory_id == row["trajectory_id"]].sort_values("frame")
-    first = own.iloc[row["first_frame"]]
+    first = of_flight[row["trajectory_id"]].iloc[row["first_frame"]]
     assert first.visible_by_rays < 0.95 and first.occluder_instance == row["occluder_instance"], row
 
 # The same through others' loaders.
@@ -70,7 +62,7 @@ for flight in flights:
     place = folder / "extras" / "tum" / flight["mcap_path"].removeprefix("mcap/").removesuffix(".mcap")
     camera, target = (file_interface.read_tum_trajectory_file(str(place / f"{name}.txt")) for name in ("camera", "target"))
     assert camera.check()[0] and target.check()[0] and camera.num_poses == flight["frames"]
-    own = frames[frames.trajectory_id == flight["trajectory_id"]].sort_values("frame")
+    own = of_flight[flight["trajectory_id"]]
     wanted = own[["drone_x_m", "drone_y_m", "drone_z_m"]].to_numpy() * [1, -1, 1]
     assert numpy.abs(camera.positions_xyz - wanted).max() < 1e-8
     # Where the camera looks (x ahead) goes along the line to the target, as in the table's angles.

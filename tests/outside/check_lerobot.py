@@ -3,7 +3,7 @@
 python check_lerobot.py DATASET EXPORT CACHE
 """
 
-import glob
+import importlib.util
 import json
 import sys
 from pathlib import Path
@@ -67,7 +67,7 @@ def check(split):
     assert info["codebase_version"] == "v3.0" and isinstance(info["fps"], int)
     tasks = pd.read_parquet(root / "meta/tasks.parquet")
     assert tasks.index.name == "task" and list(tasks.columns) == ["task_index"] and len(tasks) == info["total_tasks"]
-    episodes = pd.concat(pd.read_parquet(path) for path in sorted(glob.glob(str(root / "meta/episodes/*/*.parquet"))))
+    episodes = pd.concat(map(pd.read_parquet, sorted(root.glob("meta/episodes/*/*.parquet"))))
     assert len(episodes) == info["total_episodes"] and episodes["length"].sum() == info["total_frames"]
     assert info["splits"] == {split: f"0:{len(episodes)}"} and set(episodes["split"]) == {split}
     assert all(flights[flight]["split"] == split for flight in episodes["trajectory_id"])
@@ -84,11 +84,9 @@ def check(split):
         assert episode["dataset_from_index"] + frame == row["index"] and abs(row["timestamp"] * info["fps"] - frame) < 1e-5
         assert row[RGB].size == tuple(info["features"][RGB]["shape"][1::-1])
         own, seen = state(flight, frame), np.array(row["observation.state"])
-        assert np.abs(own - row["privileged.pose"]).max() < 1e-9
-        assert np.abs(seen[6:] - own[[3, 5]]).max() < 1e-9
-        before = state(flight, max(frame - 1, 0))
-        step = world_from_body(*own[3:]) @ seen[:3]
-        assert gap(before + np.concatenate([step, seen[3:6]]), own) < 1e-9
+        assert np.abs(own - row["privileged.pose"]).max() < 1e-9 and np.abs(seen[6:] - own[[3, 5]]).max() < 1e-9
+        step = np.concatenate([world_from_body(*own[3:]) @ seen[:3], seen[3:6]])
+        assert gap(state(flight, max(frame - 1, 0)) + step, own) < 1e-9
         # The sum of the first k increments leads from the own pose to the expert's, k frames later.
         sums = np.cumsum(np.array(row["action"]).reshape(5, 6), axis=0)
         for ahead, increment in enumerate(sums, 1):
@@ -97,8 +95,7 @@ def check(split):
     stats = json.loads((root / "meta/stats.json").read_text())
     assert set(stats) == set(info["features"])
     for name in ("observation.state", "action", "privileged.target"):
-        values = np.array(rows[name])
-        wanted = statistics(values)
+        wanted = statistics(np.array(rows[name]))
         assert stats[name]["count"] == [len(rows)] and set(stats[name]) == {*wanted, "count"}
         for key, want in wanted.items():
             assert np.abs(np.array(stats[name][key]) - want).max() < 1e-6, (name, key)
@@ -140,37 +137,26 @@ def check_episodes(table, info, rows, stats):
     wanted = {f"stats/{name}/{key}" for name in info["features"] for key in keys}
     assert {name for name in table.columns if name.startswith("stats/")} == wanted
     numbers = np.array(rows["episode_index"])
-    of_episodes = []
-    for _, episode in table.iterrows():
-        own = {name: {key: nested(episode[f"stats/{name}/{key}"]) for key in keys} for name in info["features"]}
-        of_episodes.append(own)
-        for name in ("observation.state", "action", "privileged.box", "timestamp", "index"):
-            values = np.array(rows[name])[numbers == episode["episode_index"]]
-            values = values.reshape(len(values), -1)
-            assert own[name]["count"].tolist() == [len(values)]
-            for key, it in statistics(values).items():
-                assert np.abs(own[name][key] - it).max() < 1e-5, (name, key)
-    for name in info["features"]:
-        shape = info["features"][name]["shape"]
-        shape = (shape[2], 1, 1) if name.startswith("observation.images") else tuple(shape)
-        parts = [own[name] for own in of_episodes]
-        assert all(part[key].shape == shape for part in parts for key in keys[:-1]), name
-        counts = np.array([part["count"][0] for part in parts], float)
-        weights = counts.reshape(-1, *[1] * len(shape)) / counts.sum()
-        means = np.stack([part["mean"] for part in parts])
-        mean = (means * weights).sum(0)
-        variances = np.stack([part["std"] ** 2 for part in parts]) + (means - mean) ** 2
-        whole = {key: np.array(value) for key, value in stats[name].items()}
-        assert whole["count"].tolist() == [counts.sum()], name
-        lows, highs = (np.stack([part[key] for part in parts]) for key in ("min", "max"))
-        together = {"mean": mean, "std": np.sqrt((variances * weights).sum(0)), "min": lows.min(0), "max": highs.max(0)}
+    for name, feature in info["features"].items():
+        shape = (feature["shape"][2], 1, 1) if name.startswith("observation.images") else tuple(feature["shape"])
+        parts = {key: np.stack(list(map(nested, table[f"stats/{name}/{key}"]))) for key in keys}
+        assert all(parts[key].shape == (len(table), *shape) for key in keys[:-1]), name
+        if name in ("observation.state", "action", "privileged.box", "timestamp", "index"):
+            for at, episode in enumerate(table["episode_index"]):
+                values = np.array(rows[name])[numbers == episode]
+                for key, it in (statistics(values.reshape(len(values), -1)) | {"count": [len(values)]}).items():
+                    assert np.abs(parts[key][at] - it).max() < 1e-5, (name, key)
+        weights = parts["count"].reshape(-1, *[1] * len(shape)) / parts["count"].sum()
+        mean = (parts["mean"] * weights).sum(0)
+        variance = ((parts["std"] ** 2 + (parts["mean"] - mean) ** 2) * weights).sum(0)
+        together = {"mean": mean, "std": np.sqrt(variance), "min": parts["min"].min(0), "max": parts["max"].max(0), "count": parts["count"].sum(0)}
         for key, it in together.items():
-            assert np.abs(whole[key] - it).max() < 1e-5 * max(1, np.abs(it).max()), (name, key)
+            assert np.abs(np.array(stats[name][key]) - it).max() < 1e-5 * max(1, np.abs(it).max()), (name, key)
 
 
 def nested(value):
     """A cell of lists of lists as one array."""
-    return np.array(value.tolist() if value.dtype != object else [nested(it) for it in value])
+    return np.array([nested(it) for it in value] if getattr(value, "dtype", None) == object else value)
 
 
 def load_depth(split, loaded, info):
@@ -226,9 +212,7 @@ def load(split, info, tasks):
 splits = sorted(path.name for path in export.iterdir() if path.is_dir())
 assert splits == sorted({flight["split"] for flight in flights.values()})
 checked = {split: check(split) for split in splits}
-try:
-    import lerobot
-except ImportError:
+if importlib.util.find_spec("lerobot") is None:
     print("skipped: the package lerobot is not installed")
     sys.exit()
 for split, (info, tasks) in checked.items():

@@ -27,8 +27,6 @@ scratch = tempfile.TemporaryDirectory()
 work = Path(scratch.name)
 rng = np.random.default_rng(7)
 CAP_M = 80.0
-
-
 flights = flown(dataset)[0].values()
 
 
@@ -44,12 +42,16 @@ def pictures(row, topic):
     return (pixels(image) for _, image, *_ in messages(dataset / row["mcap_path"], [topic]))
 
 
+def made(folder):
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
 def depth():
     """Noisy depths as NumPy arrays: every image by scikit-learn, then means, overall and by weather."""
     folder, found = work / "depth", []
     for row in flights:
-        place = folder / row["trajectory_id"]
-        place.mkdir(parents=True)
+        place = made(folder / row["trajectory_id"])
         for frame, truth in enumerate(pictures(row, "/camera/depth/image")):
             guess = (truth * rng.normal(1, 0.2, truth.shape)).astype(np.float32)
             guess[rng.random(truth.shape) < 0.01] = np.inf
@@ -68,13 +70,11 @@ def depth():
     agree("depth: the ImageFolder export of the truth", scores(report, *keys), [0, 0, 1], tolerance=0.005)
     assert report["frames"]["scored"] == len(found) and report["files"]["malformed"] == 0
     # Whole numbers in millimetres, every second frame.
-    folder = work / "millimetres"
+    folder = made(work / "millimetres")
     for row in flights:
-        for frame, truth in enumerate(pictures(row, "/camera/depth/image")):
-            if frame % 2 == 0:
-                place = folder / f"{row['trajectory_id']}_{frame}.png"
-                place.parent.mkdir(exist_ok=True)
-                Image.fromarray(np.clip(np.round(truth * 1000), 0, 65535).astype(np.uint16)).save(place)
+        for frame, truth in [*enumerate(pictures(row, "/camera/depth/image"))][::2]:
+            depth_mm = np.clip(np.round(truth * 1000), 0, 65535).astype(np.uint16)
+            Image.fromarray(depth_mm).save(folder / f"{row['trajectory_id']}_{frame}.png")
     wrong = evaluate(folder, "--every", "2")
     assert any("a wrong unit?" in note for note in wrong["notes"]), wrong["notes"]
     right = evaluate(folder, "--every", "2", "--depth-per-metre", "1000", "--max-depth-m", "60")
@@ -86,8 +86,7 @@ def labels():
     """Labels of which some are wrong: IoU by scikit-learn over all pixels at once."""
     folder, truths, guesses = work / "labels", [], []
     for row in flights:
-        place = folder / row["split"] / "semantic" / row["trajectory_id"]
-        place.mkdir(parents=True)
+        place = made(folder / row["split"] / "semantic" / row["trajectory_id"])
         for frame, truth in enumerate(pictures(row, "/camera/semantic/image")):
             guess = np.where(rng.random(truth.shape) < 0.2, rng.integers(0, 25, truth.shape, dtype=np.uint8), truth)
             Image.fromarray(guess).save(place / f"frame_{frame}.png")
@@ -134,8 +133,7 @@ def perturbed(truth):
 
 
 def things():
-    split = "train"
-    listed = exports / f"coco/annotations/instances_{split}.json"
+    listed = exports / "coco/annotations/instances_train.json"
     with contextlib.redirect_stdout(io.StringIO()):
         truth = COCO(str(listed))
     keys = ["ap50", "ap75", "ap"]
@@ -148,14 +146,11 @@ def things():
         agree(f"{name}: AP50, AP75, AP against pycocotools", scores(ours, *keys), average_precision(truth, rows, kind, None))
         ours = evaluate(path, "--images", listed, "--category", "12")
         agree(f"{name}: the same of pedestrians alone", scores(ours, *keys), average_precision(truth, rows, kind, [12]))
-        lines = work / "found.jsonl"
-        with lines.open("w") as file:
-            for row in rows:
-                image = truth.imgs[row["image_id"]]
-                row = row | {"trajectory_id": image["trajectory_id"], "frame": image["frame"]}
-                file.write(json.dumps(plain([row], "image_id")[0]) + "\n")
-        agree(f"{name}: the same by flight and frame", scores(evaluate(lines, "--category", "12", "--split", split), *keys), scores(ours, *keys))
-    exact = [{"image_id": ann["image_id"], "category_id": ann["category_id"], "bbox": ann["bbox"], "segmentation": ann["segmentation"], "score": 0.5} for ann in truth.anns.values()]
+        lines, images = work / "found.jsonl", [truth.imgs[row["image_id"]] for row in rows]
+        placed = [row | {key: image[key] for key in ("trajectory_id", "frame")} for row, image in zip(rows, images)]
+        lines.write_text("".join(json.dumps(row) + "\n" for row in plain(placed, "image_id")))
+        agree(f"{name}: the same by flight and frame", scores(evaluate(lines, "--category", "12", "--split", "train"), *keys), scores(ours, *keys))
+    exact = [{key: ann[key] for key in ("image_id", "category_id", "bbox", "segmentation")} | {"score": 0.5} for ann in truth.anns.values()]
     path.write_text(json.dumps(exact))
     for kind in ["boxes", "masks"]:
         report = evaluate(path, "--images", listed, "--kind", kind)
@@ -164,20 +159,15 @@ def things():
 
 def malformed():
     """What is wrong is counted and named, and the rest is scored."""
-    folder = work / "faulty"
-    row = next(iter(flights))
-    name, place = row["trajectory_id"], work / "faulty" / row["trajectory_id"]
-    place.mkdir(parents=True)
-    truth = list(pictures(row, "/camera/depth/image"))
-    for frame, depth_m in enumerate(truth[:-2]):
-        np.save(place / f"{frame}.npy", depth_m)
-    np.save(place / "0.npy", truth[0][:-1])
+    folder, row = work / "faulty", next(iter(flights))
+    name = row["trajectory_id"]
+    place, truth = made(folder / name), list(pictures(row, "/camera/depth/image"))
+    files = {f"{name}/{frame}": depth_m for frame, depth_m in enumerate(truth[:-2])}
+    files |= {f"{name}/0": truth[0][:-1], f"{name}/2_000002": truth[2], f"{name}/3": truth[0].astype(np.int64)}
+    files |= dict.fromkeys([f"{name}/9999", f"{name}/nameless", "stranger_3"], truth[0])
+    for stem, numbers in files.items():
+        np.save(folder / f"{stem}.npy", numbers)
     (place / "1.npy").write_bytes(b"\x93NUMPY")
-    np.save(place / "2_000002.npy", truth[2])
-    np.save(place / "9999.npy", truth[0])
-    np.save(place / "nameless.npy", truth[0])
-    np.save(folder / "stranger_3.npy", truth[0])
-    np.save(place / "3.npy", truth[0].astype(np.int64))
     Image.fromarray(np.zeros((2, 2), np.uint8)).save(place / "4.png")
     (folder / "notes.txt").write_text("not a picture")
     report = evaluate(folder, "--split", row["split"], code=1)
@@ -189,7 +179,8 @@ def malformed():
     agree("files: the sound ones of a faulty folder", scores(report, "abs_rel", "delta1"), [0, 1])
     path = work / "faulty.json"
     sound = {"trajectory_id": name, "frame": 0, "category_id": 12, "bbox": [1, 2, 3, 4], "score": 0.5}
-    rows = [sound, sound | {"frame": 10**6}, sound | {"trajectory_id": "nobody"}, sound | {"category_id": 99}, sound | {"bbox": [1]}, {"image_id": 1, "category_id": 12, "bbox": [1, 2, 3, 4], "score": 1}]
+    rows = [sound, *(sound | wrong for wrong in ({"frame": 10**6}, {"trajectory_id": "nobody"}, {"category_id": 99}, {"bbox": [1]}))]
+    rows.append({"image_id": 1, "category_id": 12, "bbox": [1, 2, 3, 4], "score": 1})
     path.write_text(json.dumps(rows))
     report = evaluate(path, code=1)
     assert report["files"]["kinds"] == {"no-frame": 1, "unknown-trajectory": 1, "category": 1, "field-type": 1, "image": 1}
