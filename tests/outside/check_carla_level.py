@@ -57,21 +57,18 @@ def check(inspect, path):
         town = json_of(inspect, file)
     assert town["offset_m"] == [0.0, 0.0, 0.0], town["offset_m"]
     assert set(exporter.LABELS) == set(names) - NOT_SOLID, set(names) ^ set(exporter.LABELS)
-    corners = 0
-    for name in exporter.LABELS:
-        for box in boxes[name]:
-            if name == "Vegetation":
-                continue  # a crown is drawn within its box
-            for point in box.get_world_vertices(carla.Transform()):
-                corners += 1
-                assert any(lies_in(own, point) for own in town["boxes"]), f"{name}: {point} lies in no box"
+    # A crown is drawn within its box.
+    solid = [(name, box) for name in exporter.LABELS for box in boxes[name] if name != "Vegetation"]
+    corners = [(name, point) for name, box in solid for point in box.get_world_vertices(carla.Transform())]
+    for name, point in corners:
+        assert any(lies_in(own, point) for own in town["boxes"]), f"{name}: {point} lies in no box"
     trees = [it for it in boxes["Vegetation"] if it.extent.z > 1.5]
     assert town["counts"].get("TreeTrunk", 0) == len(trees), (town["counts"], len(trees))
     walks = [it for it in town["walkable"] if it["kind"] == "Sidewalk"]
     lanes = list(all_sidewalks(town_map))
     missed = [it for it in lanes if not any(is_on(w["outline_m"], it) for w in walks)]
     crossings = sum(it["kind"] == "Crossing" for it in town["walkable"])
-    print(f"{path.name}: {corners} corners in {len(town['boxes'])} boxes; {len(walks)} pieces of pavement, {crossings} crossings")
+    print(f"{path.name}: {len(corners)} corners in {len(town['boxes'])} boxes; {len(walks)} pieces of pavement, {crossings} crossings")
     assert len(missed) <= 0.02 * len(lanes), f"{len(missed)} of {len(lanes)} middles of sidewalk lanes lie beside them"
 
 
@@ -86,10 +83,5 @@ def all_sidewalks(town_map):
                 yield lane.transform
 
 
-def main():
-    inspect, *paths = sys.argv[1:]
-    for path in paths:
-        check(inspect, Path(path))
-
-
-main()
+for argument in sys.argv[2:]:
+    check(sys.argv[1], Path(argument))

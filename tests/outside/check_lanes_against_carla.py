@@ -90,10 +90,9 @@ def compare(binary, path):
         yaw = sample["yaw_deg"] + (180.0 if sample["lane"] > 0 else 0.0)
         heading = abs(turned(other.transform.rotation.yaw, yaw))
         width = abs(other.lane_width - sample["width"])
-        offsets.append(off)
         steady = abs(sample["drift"]) < 0.02
-        if steady:
-            headings.append(heading)
+        offsets.append(off)
+        headings += [heading] * steady
         widths.append(width)
         if off > allowed or width > 1e-3 or (steady and heading > heading_limit):
             bad.append((off, width, heading, sample))
@@ -113,8 +112,4 @@ def compare(binary, path):
     return not bad and crosswalks_agree and quantile(offsets, 0.97) < (3e-3 if has_cubics else limit)
 
 
-def main():
-    sys.exit(not all([compare(sys.argv[1], path) for path in sys.argv[2:]]))
-
-
-main()
+sys.exit(not all([compare(sys.argv[1], path) for path in sys.argv[2:]]))

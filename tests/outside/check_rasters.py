@@ -10,13 +10,12 @@ Exits 1 below the shares listed in LEAST, and above those in MOST_GRASS.
 """
 
 import pathlib
-import subprocess
 import sys
 
 import h5py
 import numpy
 from shapely import Polygon, contains_xy
-from shared import json_of
+from shared import json_of, run
 
 # Shares: lane centres on road, pavement centres on pavement, area of pavement polygons on pavement,
 # area of the raster's pavement that is ours.
@@ -70,8 +69,7 @@ def grass_on_road(examples, xodr, raster):
     """Share of the raster's road that is grass in our surfaces."""
     road = raster.layers["road"]
     numbers = [*raster.offset, *road.shape[::-1], 1 / raster.ppm]
-    command = [examples / "ground_labels", xodr, *map(str, numbers)]
-    labels = numpy.frombuffer(subprocess.run(command, check=True, capture_output=True).stdout, numpy.uint8)
+    labels = numpy.frombuffer(run(examples / "ground_labels", xodr, *numbers, text=False), numpy.uint8)
     return float((labels.reshape(road.shape) == GRASS)[road].mean())
 
 
@@ -102,16 +100,8 @@ def check(examples, xodr, raster_path):
     return all(share >= wanted for share, wanted in zip(shares, least)) and grass <= MOST_GRASS.get(xodr.stem, 1.0)
 
 
-def main():
-    examples, xodr_folder, raster_folder = map(pathlib.Path, sys.argv[1:])
-    results = []
-    for xodr in sorted(xodr_folder.glob("*.xodr")):
-        found = sorted(raster_folder.glob(f"{xodr.stem.split('_')[0]}_4ppm.h5"))
-        if found:
-            results.append(check(examples, xodr, found[0]))
-    if not results:
-        print("skipped: no town has a raster")
-    sys.exit(not all(results))
-
-
-main()
+programs, xodr_folder, raster_folder = map(pathlib.Path, sys.argv[1:])
+rasters = [(xodr, raster_folder / f"{xodr.stem.split('_')[0]}_4ppm.h5") for xodr in sorted(xodr_folder.glob("*.xodr"))]
+results = [check(programs, xodr, path) for xodr, path in rasters if path.is_file()]
+print(f"{len(results)} towns have rasters")
+sys.exit(not all(results))

@@ -16,6 +16,7 @@ import random
 import sys
 import tempfile
 import xml.etree.ElementTree as ElementTree
+from collections import defaultdict
 from pathlib import Path
 
 import sumo
@@ -101,21 +102,20 @@ def compare(frames_of, town, net, fcd, steps, dt):
     config = {"types": {name: {"kind": kind, "size_m": size} for name, (_, kind, size) in SIZES.items()}}
     table = run(frames_of, town, net, fcd, dt, frames, json.dumps(config))
     rows = list(csv.DictReader(io.StringIO(table)))
-    seen, worst_m, worst_rad, worst_mps, off_lane = {}, 0.0, 0.0, 0.0, []
+    seen, off = defaultdict(set), []
     for row in rows:
         frame = int(row["frame"])
         there = expected(steps, frame * dt)
         require(row["source"] in there, f"{row['source']} is in frame {frame}, but not in the file at {frame * dt} s")
         x, y, yaw, speed = there[row["source"]]
-        worst_m = max(worst_m, math.hypot(float(row["x"]) - x, float(row["y"]) - y))
-        worst_rad = max(worst_rad, abs(turned(float(row["heading_rad"]) - yaw)))
-        worst_mps = max(worst_mps, abs(float(row["speed_mps"]) - speed))
-        seen.setdefault(frame, set()).add(row["source"])
-        if row["kind"] in ("car", "van", "bus"):
-            off_lane.append(float(row["from_lane_m"]))
+        away_m = math.hypot(float(row["x"]) - x, float(row["y"]) - y)
+        off.append((away_m, abs(turned(float(row["heading_rad"]) - yaw)), abs(float(row["speed_mps"]) - speed)))
+        seen[frame].add(row["source"])
     for frame in range(frames):
-        missing = set(expected(steps, frame * dt)) - seen.get(frame, set())
+        missing = set(expected(steps, frame * dt)) - seen[frame]
         require(not missing, f"frame {frame} lacks {sorted(missing)[:5]}")
+    worst_m, worst_rad, worst_mps = map(max, zip(*off))
+    off_lane = [float(row["from_lane_m"]) for row in rows if row["kind"] in ("car", "van", "bus")]
     require(max(worst_m, worst_rad, worst_mps) < 1e-3, f"off by {worst_m} m, {worst_rad} rad, {worst_mps} m/s")
     on_lane = sum(away < 1.0 for away in off_lane) / len(off_lane)
     require(on_lane >= 0.95, f"only {on_lane:.3f} of the cars' places lie within 1 m of our lanes")
@@ -139,9 +139,8 @@ def main():
                 tool("sumo"), "-n", net, "-r", routes, "--fcd-output", fcd, "--step-length", STEP_S, "--end", END_S + 1,
                 "--ignore-route-errors", "--no-step-log", "--no-warnings", "--precision", 6, "--seed", 7,
             )  # fmt: skip
-            steps = samples(fcd, read.getLocationOffset())
             for dt in (STEP_S, 0.2):
-                compare(frames_of, town, net, fcd, steps, dt)
+                compare(frames_of, town, net, fcd, samples(fcd, read.getLocationOffset()), dt)
 
 
 main()
