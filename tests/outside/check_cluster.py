@@ -10,16 +10,14 @@ import sys
 import time
 from pathlib import Path
 
-from shared import json_of
+from shared import json_of, program
 
-cosfly, recipe, folder = sys.argv[1], Path(sys.argv[2]).absolute(), Path(sys.argv[3]).absolute()
-cosfly = str(Path(cosfly).absolute())
+cosfly, recipe, folder = (Path(argument).absolute() for argument in sys.argv[1:4])
 folder.mkdir(parents=True, exist_ok=True)
 hq = folder / "hq"
-hq.write_text(f'#!/bin/sh\nexec "{sys.executable}" "{Path(__file__).with_name("hq_of_wheel.py").absolute()}" "$@"\n')
-hq.chmod(0o755)
+program(hq, f'exec "{sys.executable}" "{Path(__file__).with_name("hq_of_wheel.py").absolute()}" "$@"')
 os.environ.update(COSFLY_HQ=str(hq), HQ_SERVER_DIR=str(folder / "server"))
-run = [cosfly, "run", str(recipe), "--set", "stages.walkers.count=10", "--json"]
+run = [cosfly, "run", recipe, "--set", "stages.walkers.count=10", "--json"]
 
 
 def start(*arguments):
@@ -45,13 +43,16 @@ def drive():
     return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
+def two_workers():
+    return [start("worker", "start", "--cpus=1") for _ in range(2)]
+
+
 def main():
     here = json_of(*run, "--store", folder / "alone", "--out", folder / "here")
     server = start("server", "start")
     wait_for_server()
-    workers = [start("worker", "start", "--cpus=1") for _ in range(2)]
+    workers, next_worker = two_workers(), 2.0
     driver, began, killed = drive(), time.time(), {"worker": 0, "server": 0, "driver": 0}
-    next_worker = 2.0
     while driver.poll() is None:
         at = time.time() - began
         if at > 600:
@@ -72,7 +73,7 @@ def main():
             wait_for_server()
             for worker in workers:
                 kill(worker)
-            workers = [start("worker", "start", "--cpus=1") for _ in range(2)]
+            workers = two_workers()
             killed["server"] += 1
         time.sleep(0.05)
     stdout, stderr = driver.communicate()

@@ -2,6 +2,7 @@
 """check_cluster_page.py PAGE COSFLY FOLDER: the commands of the book's page on clusters, literally, from an empty folder;
 then the script for Slurm, with Slurm where it is installed and with a played `srun` otherwise."""
 
+import contextlib
 import os
 import shutil
 import signal
@@ -9,21 +10,14 @@ import subprocess
 import sys
 from pathlib import Path
 
-from shared import blocks
+from shared import blocks, program
 
 page, cosfly, folder = (Path(argument).absolute() for argument in sys.argv[1:4])
 programs, empty = folder / "bin", folder / "empty"
 programs.mkdir(parents=True)
 empty.mkdir()
-
-
-def program(name, text):
-    (programs / name).write_text(f"#!/bin/sh\n{text}\n")
-    (programs / name).chmod(0o755)
-
-
-program("hq", f'exec "{sys.executable}" "{Path(__file__).with_name("hq_of_wheel.py").absolute()}" "$@"')
-program("cosfly", f'exec "{cosfly}" "$@"')
+program(programs / "hq", f'exec "{sys.executable}" "{Path(__file__).with_name("hq_of_wheel.py").absolute()}" "$@"')
+program(programs / "cosfly", f'exec "{cosfly}" "$@"')
 environment = {**os.environ, "PATH": f"{programs}:{os.environ['PATH']}", "HQ_SERVER_DIR": str(folder / "server")}
 environment.pop("COSFLY_HQ", None)
 
@@ -34,10 +28,8 @@ def follow(script, what, **more):
     try:
         code = process.wait(timeout=600)
     finally:
-        try:
+        with contextlib.suppress(ProcessLookupError):
             os.killpg(process.pid, signal.SIGKILL)
-        except ProcessLookupError:
-            pass
     if code != 0:
         sys.exit(f"{what} failed with {code}")
 
@@ -54,7 +46,7 @@ if shutil.which("sbatch") and shutil.which("srun"):
     follow("sed -i '/partition/d; s/--nodes=2/--nodes=1/' job.sh; sbatch --wait job.sh", "Slurm")
     print("the script ran under Slurm")
 else:
-    program("srun", 'exec "$@" --cpus=2')
+    program(programs / "srun", 'exec "$@" --cpus=2')
     follow("bash job.sh", "the script for Slurm")
     print("skipped: Slurm is not installed (Debian: slurm-wlm); the script ran with a played `srun`")
 assert (empty / "store" / "done").is_dir()

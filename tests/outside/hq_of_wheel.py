@@ -9,6 +9,8 @@ import sys
 import tempfile
 import time
 import tomllib
+from datetime import timedelta
+from importlib.metadata import version
 from pathlib import Path
 
 from hyperqueue.client import Client
@@ -36,9 +38,10 @@ def start_server():
     forever(cluster)
 
 
-def is_alive():
+def is_alive(number):
+    """Whether there is a process with a number, written down as a text."""
     try:
-        os.kill(int((FOLDER / "server.pid").read_text()), 0)
+        os.kill(int(number), 0)
         return True
     except (OSError, ValueError):
         return False
@@ -57,18 +60,7 @@ def start_worker(cpus):
 
 
 def workers():
-    found = []
-    for entry in (FOLDER / "workers").iterdir() if (FOLDER / "workers").exists() else []:
-        try:
-            os.kill(int(entry.name), 0)
-            found.append({"id": int(entry.name)})
-        except OSError:
-            entry.unlink(missing_ok=True)
-    return found
-
-
-def seconds(text):
-    return __import__("datetime").timedelta(seconds=int(text.removesuffix("s")))
+    return [{"id": int(entry.name)} for entry in FOLDER.glob("workers/*") if is_alive(entry.name)]
 
 
 def submit(path):
@@ -77,11 +69,12 @@ def submit(path):
     job, tasks = Job(name=described["name"], max_fails=None), {}
     for task in described["task"]:
         request = task["request"][0]
+        time_s = request.get("time_request")
         tasks[task["id"]] = job.program(
             ["sh", "-c", RECORDER, str(records), str(task["id"]), *task["command"]],
             deps=[tasks[dep] for dep in task.get("deps", [])],
             # The package's workers have processors alone.
-            resources=ResourceRequest(cpus=request["resources"]["cpus"], min_time=seconds(request["time_request"]) if "time_request" in request else None),
+            resources=ResourceRequest(cpus=request["resources"]["cpus"], min_time=time_s and timedelta(seconds=int(time_s.removesuffix("s")))),
             stdout=None, stderr=None, crash_limit=task["crash_limit"], cwd="/",
         )
     deps = {task["id"]: task.get("deps", []) for task in described["task"]}
@@ -120,7 +113,7 @@ def jobs():
 def answer(arguments):
     match arguments:
         case ["server", "info"]:
-            return {"version": __import__("importlib.metadata").metadata.version("hyperqueue"), "server_dir": str(FOLDER)}
+            return {"version": version("hyperqueue"), "server_dir": str(FOLDER)}
         case ["server", "stop"]:
             os.kill(int((FOLDER / "server.pid").read_text()), 15)
             return {}
@@ -152,7 +145,7 @@ def main():
             cpus = [option.removeprefix("--cpus=") for option in options if option.startswith("--cpus=")]
             start_worker(int(cpus[0]) if cpus else os.cpu_count())
     try:
-        if not is_alive():
+        if not (FOLDER / "server.pid").exists() or not is_alive((FOLDER / "server.pid").read_text()):
             raise ConnectionError(f"no server runs in {FOLDER}")
         print(json.dumps(answer(arguments)))
     except Exception as error:
