@@ -1,11 +1,8 @@
 """Judges the moving world of a dataset from its tables: bodies, flights among them, losses, look-alikes.
 
-    venv/bin/python tests/outside/check_bodies.py DATASET_FOLDER
-
-Shares no code with cosfly. No two bodies may overlap; no flight may come nearer to a body than its certificate says, at 20 moments between
-frames; table `target_losses` must be what `frames` shows; `look_alikes` must be the number of visible people in the target's clothes. Prints the
-smallest distances.
-"""
+Usage: `check_bodies.py DATASET_FOLDER`. Shares no code with cosfly. No two bodies may overlap; no flight may come nearer to a body than its
+certificate says, at 20 moments between frames; table `target_losses` must be what `frames` shows; `look_alikes` must be the number of visible people
+in the target's clothes. Prints the smallest distances."""
 
 import sys
 from collections import defaultdict

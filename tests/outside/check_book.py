@@ -1,10 +1,8 @@
 """The book: every link leads somewhere, every page is in the summary once, and what CONTRIBUTING asks of its text. Standard library only.
 
-usage: check_book.py BUILT SOURCE [FILE.md ...]   (files beside the book that link into it)
-
-Of the text: guides have at most 1,200 words; README, Getting started and the tutorial have sentences of under 30 words; lines have at
-most 160 columns but for tables, code and comments; reference/environment.md names every environment variable that the tree reads.
-"""
+Usage: `check_book.py BUILT SOURCE [FILE.md ...]` (files beside the book that link into it). Of the text: guides have at most 1,200 words; README,
+Getting started and the tutorial have sentences of under 30 words; lines have at most 160 columns but for tables, code and comments;
+reference/environment.md names every environment variable that the tree reads."""
 import re
 import sys
 from html.parser import HTMLParser
@@ -89,7 +87,7 @@ def unnamed_variables(source, root):
 
 
 def main():
-    built, source = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+    built, source = (Path(argument).resolve() for argument in sys.argv[1:3])
     root = source.parents[1]
     pages = {path.resolve(): Page(path) for path in built.rglob("*.html") if path.name not in ("404.html", "toc.html")}
     problems, links = [*faults_of_text(source, root), *unnamed_variables(source, root)], 0
@@ -110,10 +108,10 @@ def main():
                 continue
             links += 1
             target = (path.parent / unquote(parts.path)).resolve() if parts.path else path
-            if built not in target.parents and target != built:
+            if target.is_relative_to(built):
+                check(path.relative_to(built), target, unquote(parts.fragment), link)
+            else:
                 problems.append(f"{path.relative_to(built)}: `{link}` leads out of the book")
-                continue
-            check(path.relative_to(built), target, unquote(parts.fragment), link)
     # Files of the repository link to sources; their headings are those of the built pages.
     for name in sys.argv[3:]:
         file = Path(name).resolve()
@@ -123,14 +121,10 @@ def main():
                 continue
             links += 1
             target = (file.parent / unquote(parts.path)).resolve()
+            check(name, target, "", link)
             if source in target.parents and target.suffix == ".md" and target.name != "SUMMARY.md":
-                html = built / target.relative_to(source).with_suffix(".html")
-                check(name, target, "", link)
-                check(name, html, unquote(parts.fragment), link)
-            else:
-                check(name, target, "", link)
-    for problem in problems:
-        print(problem, file=sys.stderr)
+                check(name, built / target.relative_to(source).with_suffix(".html"), unquote(parts.fragment), link)
+    print(*problems, sep="\n", file=sys.stderr)
     print(f"{len(pages)} pages, {links} links, {len(problems)} faults")
     sys.exit(bool(problems) or not pages)
 

@@ -1,12 +1,9 @@
 #!/usr/bin/env python3
 """Exports a level through `plugins/carla/export_level.py` without a server, and reads it with cosfly.
 
-    check_carla_level.py INSPECT_JSON FILE.xodr...
-
-Bounding boxes with every label and any rotation are the `carla` package's own; a function stands in for
-`World.get_level_bbs`. Their corners, as the package computes them, must lie in the boxes of cosfly's town at CARLA's own
-coordinates; pavements come from `carla.Map`, and the middles of its sidewalk lanes must lie on walkable ground.
-"""
+Usage: `check_carla_level.py INSPECT_JSON FILE.xodr...`. Bounding boxes with every label and any rotation are the `carla` package's own; a function
+stands in for `World.get_level_bbs`. Their corners, as the package computes them, must lie in the boxes of cosfly's town at CARLA's own coordinates;
+pavements come from `carla.Map`, and the middles of its sidewalk lanes must lie on walkable ground."""
 
 import json
 import random

@@ -1,10 +1,7 @@
-"""Flies a dataset through a CARLA server that is not there: a stand-in that answers with the dataset's own pictures in
-CARLA's encodings. What comes back must be the dataset's logs again. Poses, weathers and control use the real `carla` package.
+"""Flies a dataset through a CARLA server that is not there: a stand-in that answers with the dataset's own pictures in CARLA's encodings. What comes
+back must be the dataset's logs again. Poses, weathers and control use the real `carla` package.
 
-    venv/bin/python tests/outside/check_carla_replay.py COSFLY_BINARY DATASET_FOLDER
-
-What it cannot check: how a real server draws, how its walkers move, how long it takes.
-"""
+Usage: `check_carla_replay.py COSFLY_BINARY DATASET_FOLDER`. What it cannot check: how a real server draws, how its walkers move, how long it takes."""
 
 import sys
 import tempfile
@@ -136,14 +133,10 @@ class StandIn:
 
 class Blueprint:
     def __init__(self, name):
-        self.id, self.attributes = name, {}
+        self.id = name
 
-    def has_attribute(self, name):
-        return name in ("motion_blur_intensity", "is_invincible")
-
-    def set_attribute(self, name, value):
-        require(isinstance(value, str), f"{name} must be text")
-        self.attributes[name] = value
+    has_attribute = lambda self, name: name in ("motion_blur_intensity", "is_invincible")
+    set_attribute = lambda self, name, value: require(isinstance(value, str), f"{name} must be text")
 
 
 class Actor:
@@ -193,10 +186,9 @@ def same_pictures(before, after, world):
         require((pixels(old["/camera/semantic/image"]) == pixels(new["/camera/semantic/image"])).all(), f"labels of {number}")
         target = [pixels(log["/camera/instance/image"]) == 1 for log in (old, new)]
         require((target[0] == target[1]).all(), f"the target's pixels of frame {number}")
-        state = [log["/target/state"] for log in (old, new)]
-        require(state[0].visible_pixels == state[1].visible_pixels, f"visible pixels of frame {number}")
-        require(list(state[0].visible_box_px) == list(state[1].visible_box_px), f"visible box of frame {number}")
-        require(state[0].feet_x_m == state[1].feet_x_m and state[0].distance_m == state[1].distance_m, "the plan's numbers")
+        states = [log["/target/state"] for log in (old, new)]
+        told = [(it.visible_pixels, list(it.visible_box_px), it.feet_x_m, it.distance_m) for it in states]
+        require(told[0] == told[1], f"pixels, box and the plan's numbers of frame {number}: {told}")
         images = [picture(log["/camera/rgb/image"]).convert("RGB") for log in (old, new)]
         difference = np.abs(np.asarray(images[0], np.int16) - np.asarray(images[1], np.int16)).mean()
         require(difference < 3.0, f"colours of frame {number} differ by {difference}")
@@ -204,7 +196,7 @@ def same_pictures(before, after, world):
             if topic in new:
                 picture(new[topic]).load()
         outlines = new["/camera/rgb/annotations"].points
-        require(len(outlines) == (len(state[1].full_box_px) > 0) + (len(state[1].visible_box_px) > 0), "annotations")
+        require(len(outlines) == (len(states[1].full_box_px) > 0) + (len(states[1].visible_box_px) > 0), "annotations")
     require(worst <= 1000.0 / 2**24 + 1e-4, f"depth differs by {worst} m")
     return worst
 

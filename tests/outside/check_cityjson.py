@@ -1,12 +1,9 @@
 #!/usr/bin/env python3
 """Compares towns read from CityJSON with the files themselves, which this script parses on its own as plain JSON.
 
-    check_cityjson.py INSPECT_JSON FILE...
-
-INSPECT_JSON is the example `inspect_json` of the room `maps`. For each file: every building is there, its footprint (the
-ground surface, else the lowest level faces) has an intersection over union of at least 0.9 in the median, its plan with
-the roofs that reach over it one of at least 0.97, and its lowest and highest points agree within 0.3 m; footpaths and roads cover the same ground.
-"""
+Usage: `check_cityjson.py INSPECT_JSON FILE...`. INSPECT_JSON is the example `inspect_json` of the room `maps`. For each file: every building is
+there, its footprint (the ground surface, else the lowest level faces) has an intersection over union of at least 0.9 in the median, its plan with the
+roofs that reach over it one of at least 0.97, and its lowest and highest points agree within 0.3 m; footpaths and roads cover the same ground."""
 
 import json
 import sys

@@ -47,51 +47,47 @@ def two_workers():
     return [start("worker", "start", "--cpus=1") for _ in range(2)]
 
 
-def main():
-    here = json_of(*run, "--store", folder / "alone", "--out", folder / "here")
-    server = start("server", "start")
-    wait_for_server()
-    workers, next_worker = two_workers(), 2.0
-    driver, began, killed = drive(), time.time(), {"worker": 0, "server": 0, "driver": 0}
-    while driver.poll() is None:
-        at = time.time() - began
-        if at > 600:
-            sys.exit("the run does not end")
-        if at > next_worker:
-            next_worker = at + 3
-            kill(workers.pop(0))
-            workers.append(start("worker", "start", "--cpus=1"))
-            killed["worker"] += 1
-        if killed["driver"] < 2 and at > (3.5, 8.0)[killed["driver"]]:
-            driver.kill()
-            driver.wait()
-            driver = drive()
-            killed["driver"] += 1
-        if killed["server"] == 0 and at > 6:
-            kill(server)
-            server = start("server", "start")
-            wait_for_server()
-            for worker in workers:
-                kill(worker)
-            workers = two_workers()
-            killed["server"] += 1
-        time.sleep(0.05)
-    stdout, stderr = driver.communicate()
-    print(f"killed: {killed}; {time.time() - began:.0f} s")
-    if driver.returncode != 0:
-        sys.exit(f"the run failed with {driver.returncode}:\n{stdout}\n{stderr}")
-    there = json.loads(stdout)
-    digests = [{stage["stage"]: stage["digest"] for stage in summary["stages"]} for summary in (here, there)]
-    if here["version"] != there["version"] or digests[0] != digests[1]:
-        sys.exit(f"the versions differ: {here['version']} here, {there['version']} on HyperQueue")
-    jobs = json_of(hq, "--output-mode", "json", "job", "list", "--all")
-    began = time.time()
-    assert json.loads(drive().communicate()[0])["version"] == here["version"]
-    after = json_of(hq, "--output-mode", "json", "job", "list", "--all")
-    assert len(jobs) == len(after), "a finished run submits nothing"
-    print(f"one version: {here['version']}; a finished run is found finished in {time.time() - began:.1f} s")
-    for process in [*workers, server]:
-        kill(process)
-
-
-main()
+here = json_of(*run, "--store", folder / "alone", "--out", folder / "here")
+server = start("server", "start")
+wait_for_server()
+workers, next_worker = two_workers(), 2.0
+driver, began, killed = drive(), time.time(), {"worker": 0, "server": 0, "driver": 0}
+while driver.poll() is None:
+    at = time.time() - began
+    if at > 600:
+        sys.exit("the run does not end")
+    if at > next_worker:
+        next_worker = at + 3
+        kill(workers.pop(0))
+        workers.append(start("worker", "start", "--cpus=1"))
+        killed["worker"] += 1
+    if killed["driver"] < 2 and at > (3.5, 8.0)[killed["driver"]]:
+        driver.kill()
+        driver.wait()
+        driver = drive()
+        killed["driver"] += 1
+    if killed["server"] == 0 and at > 6:
+        kill(server)
+        server = start("server", "start")
+        wait_for_server()
+        for worker in workers:
+            kill(worker)
+        workers = two_workers()
+        killed["server"] += 1
+    time.sleep(0.05)
+stdout, stderr = driver.communicate()
+print(f"killed: {killed}; {time.time() - began:.0f} s")
+if driver.returncode != 0:
+    sys.exit(f"the run failed with {driver.returncode}:\n{stdout}\n{stderr}")
+there = json.loads(stdout)
+digests = [{stage["stage"]: stage["digest"] for stage in summary["stages"]} for summary in (here, there)]
+if here["version"] != there["version"] or digests[0] != digests[1]:
+    sys.exit(f"the versions differ: {here['version']} here, {there['version']} on HyperQueue")
+jobs = json_of(hq, "--output-mode", "json", "job", "list", "--all")
+began = time.time()
+assert json.loads(drive().communicate()[0])["version"] == here["version"]
+after = json_of(hq, "--output-mode", "json", "job", "list", "--all")
+assert len(jobs) == len(after), "a finished run submits nothing"
+print(f"one version: {here['version']}; a finished run is found finished in {time.time() - began:.1f} s")
+for process in [*workers, server]:
+    kill(process)

@@ -1,9 +1,7 @@
 """Plants faults into copies of a dataset and of its exports; `cosfly doctor` must name each, and nothing in sound data.
 
-    python check_doctor.py COSFLY DATASET
-
-DATASET is what `cosfly run recipes/small.toml` delivers. Files are changed by pyarrow, numpy and json, not by cosfly.
-"""
+Usage: `check_doctor.py COSFLY DATASET`. DATASET is what `cosfly run recipes/small.toml` delivers. Files are changed by pyarrow, numpy and json, not
+by cosfly."""
 
 import json
 import pathlib
@@ -15,33 +13,25 @@ import tempfile
 import numpy
 import pyarrow
 import pyarrow.parquet as parquet
+from shared import end_with, require, run
 
 cosfly, dataset = sys.argv[1], pathlib.Path(sys.argv[2])
-failures = []
 
 
-def names(folder, work):
-    """The names of all flags, and the exit code."""
-    verdict = work / "verdict.json"
-    done = subprocess.run([cosfly, "doctor", folder, "--out", verdict], capture_output=True, text=True, check=False)
-    if done.returncode not in (0, 1):
-        return {f"exit {done.returncode}: {done.stderr.strip()[:300]}"}, done.returncode
-    return {flag["name"] for flag in json.loads(verdict.read_text())["flags"]}, done.returncode
-
-
-def planted(name, source, work, damage):
-    """Copies `source`, damages the copy, and looks for `name` among the flags."""
-    copy = work / "copy"
+def is_found(name, source, work, damage):
+    """Copies `source`, damages the copy, and looks for `name` among the flags; without a name there must be none."""
+    copy, verdict = work / "copy", work / "verdict.json"
     shutil.copytree(source, copy, copy_function=shutil.copy)
     for path in copy.rglob("*"):
         path.chmod(0o755 if path.is_dir() else 0o644)
     damage(copy)
-    found, code = names(copy, work)
-    good = found == set() and code == 0 if name is None else name in found and code == 1
-    print("found" if good else "MISSED", f"{name or 'nothing'}: {sorted(found)}, exit {code}")
-    if not good:
-        failures.append(name)
+    done = subprocess.run([cosfly, "doctor", copy, "--out", verdict], capture_output=True, text=True)
+    require(done.returncode in (0, 1), f"{name}: exit code {done.returncode}: {done.stderr}")
+    found = {flag["name"] for flag in json.loads(verdict.read_text())["flags"]}
     shutil.rmtree(copy)
+    is_good = not found and done.returncode == 0 if name is None else name in found and done.returncode == 1
+    print("found" if is_good else "MISSED", f"{name or 'nothing'}: {sorted(found)}, exit {done.returncode}", flush=True)
+    return is_good
 
 
 def tables(change, files="frames", by="trajectory_id"):
@@ -271,12 +261,9 @@ PLANTS = {
 with tempfile.TemporaryDirectory() as place:
     work = pathlib.Path(place)
     for layout in ("v7", "lerobot"):
-        subprocess.run([cosfly, "export", dataset, "--format", layout, "--out", work / layout], check=True, capture_output=True)
+        run(cosfly, "export", dataset, "--format", layout, "--out", work / layout)
     foreign(work / "foreign")
     of_one_split = next(path for path in sorted((work / "lerobot").iterdir()) if path.is_dir())
-    for layout, plants in PLANTS.items():
-        source = {"dataset": dataset, "lerobot": of_one_split}.get(layout, work / layout)
-        for name, damage in (NOTHING | plants).items():
-            planted(name, source, work, damage)
-
-sys.exit(f"missed: {failures}" if failures else 0)
+    sources = {"dataset": dataset, "v7": work / "v7", "lerobot": of_one_split, "foreign": work / "foreign"}
+    end_with([f"missed: {name} in {layout}" for layout, plants in PLANTS.items() for name, damage in (NOTHING | plants).items()
+              if not is_found(name, sources[layout], work, damage)])

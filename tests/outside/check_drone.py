@@ -1,7 +1,6 @@
 """The quadrotor against `drone-models` step for step; gust spectra and Allan deviations by numpy and scipy.
 
-Usage: check_drone.py FLIGHT_OF_STDIN
-"""
+Usage: `check_drone.py FLIGHT_OF_STDIN`."""
 
 import sys
 

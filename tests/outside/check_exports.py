@@ -1,7 +1,6 @@
 """Reads exports of a dataset with the software that they are made for: pycocotools, webdataset, datasets.
 
-python check_exports.py DATASET FOLDER CACHE     FOLDER has coco/, webdataset/, imagefolder/ and vlm/
-"""
+Usage: `check_exports.py DATASET FOLDER CACHE`. FOLDER has coco/, webdataset/, imagefolder/ and vlm/."""
 
 import glob
 import importlib.util

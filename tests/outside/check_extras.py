@@ -1,7 +1,6 @@
 """What plugins added to a dataset (recipes/extras.toml), read by others: pyarrow, datasets, mlcroissant, evo.
 
-check_extras.py DATASET CACHE
-"""
+Usage: `check_extras.py DATASET CACHE`."""
 
 import json
 import math

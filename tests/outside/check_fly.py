@@ -1,8 +1,6 @@
 """`cosfly fly` against policies behind openpi's own codec, against faults, and against itself.
 
-Usage: check_fly.py COSFLY SUITE WORK_FOLDER
-The policies are servers with the codec of the package openpi-client and the loop of openpi's server.
-"""
+Usage: `check_fly.py COSFLY SUITE WORK_FOLDER`. The policies are servers with the codec of the package openpi-client and the loop of openpi's server."""
 
 import contextlib
 import pathlib

@@ -1,11 +1,9 @@
 """Reads the goals of table `goals` and the descriptions of table `captions` from their own words and judges every claim by the other tables.
 
-    venv/bin/python tests/outside/check_goals.py DATASET_FOLDER [DATASET_FOLDER ...] [--least-skeletons N]
-
-Shares no code with cosfly. The words of a goal must say what its column `claims` says, no more and no less, in English and in Chinese.
-Then every claim is judged by brute force over tables `frames`, `bodies`, `objects` and `trajectories`: all claims of goals that fit, and all but
-those of the stated subject of goals that do not. Turns, times, lengths and paces of descriptions are judged by `walk_words.py`. Prints the numbers of goals, claims and skeletons (texts whose slots are blank).
-"""
+Usage: `check_goals.py DATASET_FOLDER [DATASET_FOLDER ...] [--least-skeletons N]`. Shares no code with cosfly. The words of a goal must say what its
+column `claims` says, no more and no less, in English and in Chinese. Then every claim is judged by brute force over tables `frames`, `bodies`,
+`objects` and `trajectories`: all claims of goals that fit, and all but those of the stated subject of goals that do not. Turns, times, lengths and
+paces of descriptions are judged by `walk_words.py`. Prints the numbers of goals, claims and skeletons (texts whose slots are blank)."""
 
 import re
 from collections import Counter, defaultdict

@@ -1,7 +1,6 @@
 """`cosfly fly` against hostile policies: no crash, at most 1 GB, at most 20 s each, and every refusal names place and way out.
 
-Usage: check_hostile.py COSFLY SUITE WORK_FOLDER [PART_OF_A_NAME]
-"""
+Usage: `check_hostile.py COSFLY SUITE WORK_FOLDER [PART_OF_A_NAME]`."""
 
 import os
 import pathlib

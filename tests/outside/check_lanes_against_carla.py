@@ -1,11 +1,9 @@
 """Lane centres, headings, widths and crosswalks of our OpenDRIVE reader against the `carla` package (no server needed).
 
-usage: check_lanes_against_carla.py DUMP_LANES_BINARY FILE.xodr...   (pip install carla==0.9.16)
-Exits 1 when a lane differs by more than 1 mm plus the float32 step of its coordinates. Two things are known of carla:
-it replaces paramPoly3 by chords of 0.3 m (10 mm and 0.1 degrees are allowed there, 3 mm for 97 of 100 samples), and it adds the slope of a lane's edge to its
-heading as if it were an angle (headings are compared where the slope is below 0.02). Maps in far coordinates (UTM)
-are moved near the origin first, because carla works in float32.
-"""
+Usage: `check_lanes_against_carla.py DUMP_LANES_BINARY FILE.xodr...` (pip install carla==0.9.16). Exits 1 when a lane differs by more than 1 mm plus
+the float32 step of its coordinates. Two things are known of carla: it replaces paramPoly3 by chords of 0.3 m (10 mm and 0.1 degrees are allowed
+there, 3 mm for 97 of 100 samples), and it adds the slope of a lane's edge to its heading as if it were an angle (headings are compared where the
+slope is below 0.02). Maps in far coordinates (UTM) are moved near the origin first, because carla works in float32."""
 
 import decimal
 import math

@@ -1,7 +1,6 @@
 """Reads an export of format lerobot: file by file with pandas and datasets, and with the lerobot package where it is installed.
 
-python check_lerobot.py DATASET EXPORT CACHE
-"""
+Usage: `check_lerobot.py DATASET EXPORT CACHE`."""
 
 import importlib.util
 import json

@@ -4,8 +4,7 @@ compares those of depth, labels and detections.
     cargo build --profile ci -p cosfly-metrics --example metrics_of_stdin
     venv/bin/python tests/outside/check_metrics.py target/ci/examples/metrics_of_stdin
 
-Each check prints one line. Exit code 0: everything agrees to 1e-9.
-"""
+Each check prints one line. Exit code 0: everything agrees to 1e-9."""
 
 import json
 import sys

@@ -1,7 +1,6 @@
 """The book's page on policies in ONNX, literally: every `sh` and `python` block, in order; and the page's lists against the program.
 
-check_onnx_page.py COSFLY FOLDER   (with a Python that has cosfly, numpy and onnx)
-"""
+Usage: `check_onnx_page.py COSFLY FOLDER` (with a Python that has cosfly, numpy and onnx)."""
 
 import os
 import re

@@ -1,10 +1,7 @@
 """Towns of OpenStreetMap extracts against what pyosmium, PROJ and GEOS make of the same files.
 
-    check_osm.py INSPECT FOLDER
-
-INSPECT is the example `inspect_json` of cosfly-maps, FOLDER holds extracts. Compared are counts of buildings, trees and
-lamps, footprints (intersection over union), stated heights, and whether the middle lines of footpaths are walkable.
-"""
+Usage: `check_osm.py INSPECT FOLDER`. INSPECT is the example `inspect_json` of cosfly-maps, FOLDER holds extracts. Compared are counts of buildings,
+trees and lamps, footprints (intersection over union), stated heights, and whether the middle lines of footpaths are walkable."""
 
 import math
 import statistics
@@ -20,8 +17,7 @@ from shapely import Point, Polygon, STRtree, distance, get_coordinates, points, 
 from shapely.ops import unary_union
 from shared import ground_of_boxes, json_of, overlap
 
-STOREY_M = 3.0
-BUILDING_MARGIN_M = 1000.0
+STOREY_M, BUILDING_MARGIN_M, THING_MARGIN_M = 3.0, 1000.0, 100.0
 # Widest half of a street, beyond which a path that ends at its middle line has reached the kerb.
 KERB_M = 8.0
 PATHS = ("footway", "steps", "pedestrian", "path")
@@ -29,7 +25,7 @@ STREETS = (
     "motorway trunk primary secondary tertiary unclassified residential road living_street service motorway_link trunk_link "
     "primary_link secondary_link tertiary_link busway"
 ).split()
-THING_MARGIN_M = 100.0
+NOT_THERE = ("proposed", "planned", "demolished", "destroyed", "razed", "removed", "underground")
 
 
 def rows(path):
@@ -40,7 +36,7 @@ def rows(path):
     factory = osmium.geom.WKBFactory()
     areas, paths, points = [], [], []
     streets, arms, crossings = set(), Counter(), set()
-    for one in osmium.FileProcessor(str(in_order(path))).with_locations().with_areas():
+    for one in in_order(path):
         tags = dict(one.tags)
         if one.is_node() and one.location.valid():
             if tags.get("natural") == "tree" or tags.get("highway") == "street_lamp":
@@ -49,14 +45,12 @@ def rows(path):
                 crossings.add(one.id)
         elif one.is_way() and tags.get("highway") in STREETS:
             streets.update(node.ref for node in one.nodes)
-        elif one.is_way() and tags.get("highway") in PATHS:
-            if not is_area(tags) and not is_hidden(tags) and tags.get("foot") != "no":
-                refs = [node.ref for node in one.nodes]
-                arms.update(refs[:-1] + refs[1:])
-                if tags["highway"] not in ("footway", "steps", "pedestrian"):
-                    continue
-                known = [(node.ref, (node.lon, node.lat)) if node.location.valid() else None for node in one.nodes]
-                paths += [pair for pair in zip(known, known[1:]) if None not in pair]
+        elif one.is_way() and tags.get("highway") in PATHS and not is_area(tags) and not is_hidden(tags) and tags.get("foot") != "no":
+            known = [(node.ref, (node.lon, node.lat)) if node.location.valid() else (node.ref, None) for node in one.nodes]
+            refs = [ref for ref, _ in known]
+            arms.update(refs[:-1] + refs[1:])
+            if tags["highway"] != "path":
+                paths += [pair for pair in zip(known, known[1:]) if all(place for _, place in pair)]
         elif one.is_area() and any(tags.get(key, "no") != "no" for key in ("building", "building:part")):
             name = f"{'way' if one.from_way() else 'relation'} {one.orig_id()}"
             areas += [(name, tags, polygon) for polygon in wkb.loads(factory.create_multipolygon(one), hex=True).geoms]
@@ -65,13 +59,13 @@ def rows(path):
 
 
 def in_order(path):
-    """The same content sorted by kind and number, which pyosmium needs to make areas."""
-    out = Path(tempfile.mkdtemp()) / "sorted.osm.pbf"
-    with osmium.SimpleWriter(str(out)) as writer:
-        reader = osmium.MergeInputReader()
-        reader.add_file(str(path))
-        reader.apply(writer)
-    return out
+    """The content of a file with its areas; pyosmium makes them of content that is sorted by kind and number."""
+    with tempfile.TemporaryDirectory() as folder:
+        out, reader = f"{folder}/sorted.osm.pbf", osmium.MergeInputReader()
+        with osmium.SimpleWriter(out) as writer:
+            reader.add_file(str(path))
+            reader.apply(writer)
+        yield from osmium.FileProcessor(out).with_locations().with_areas()
 
 
 def is_area(tags):
@@ -83,9 +77,6 @@ def number(text):
         return float(text)
     except (TypeError, ValueError):
         return None
-
-
-NOT_THERE = ("proposed", "planned", "demolished", "destroyed", "razed", "removed", "underground")
 
 
 def is_below(tags):
@@ -186,9 +177,7 @@ class Town:
         for box in shapes:
             near = union_of(areas, tree, box)
             beyond = box.difference(near)
-            if near.is_empty or beyond.is_empty:
-                continue
-            reach = float(distance(points(get_coordinates(beyond)), near).max())
+            reach = 0.0 if near.is_empty or beyond.is_empty else distance(points(get_coordinates(beyond)), near).max()
             far, farthest = far + (reach > 0.51), max(farthest, reach)
         return far, farthest
 
@@ -205,17 +194,13 @@ class Town:
 
     def overlap(self, shape, shapes, index, boxes):
         """Intersection over union with the boxes of the object that covers most of the shape."""
-        there = [int(at) for at in index.query(shape, predicate="intersects")]
-        if not there:
-            return 0.0
-        covered = Counter()
+        there, covered = index.query(shape, predicate="intersects"), Counter()
         for at in there:
             covered[boxes[at]["object"]] += shapes[at].intersection(shape).area
-        best = max(covered, key=covered.get)
-        union = unary_union([shapes[at] for at in there if boxes[at]["object"] == best])
-        # All boxes of the object, also those that do not touch the shape.
-        union = union.union(unary_union([s for s, b in zip(shapes, boxes) if b["object"] == best])) if len(there) < 40 else union
-        return overlap(shape, union)
+        best = max(covered, key=covered.get, default=None)
+        # All boxes of the object, also those that do not touch the shape, where it has few.
+        own = [at for at in (range(len(boxes)) if len(there) < 40 else there) if boxes[at]["object"] == best]
+        return overlap(shape, unary_union([shapes[at] for at in own])) if own else 0.0
 
     def height(self, name, tags, shape, shapes, index, boxes):
         """Difference between a stated height and the nearest top of the boxes over the middle of a shape."""
@@ -236,17 +221,16 @@ class Town:
     def check_paths(self):
         ground = [Polygon([corner[:2] for corner in one["outline_m"]]).buffer(0.01) for one in self.town["walkable"]]
         index = STRtree(ground)
-        inside, walkable = 0, 0
+        is_walkable = []
         for (ax, ay, begins), (bx, by, ends) in self.paths:
             length = math.hypot(bx - ax, by - ay)
             for share in (0.25, 0.5, 0.75):
                 at = (ax + share * (bx - ax), ay + share * (by - ay))
                 before_kerb = begins and share * length < KERB_M or ends and (1 - share) * length < KERB_M
                 if self.holds(at, 0.0) and not before_kerb:
-                    inside += 1
-                    walkable += len(index.query(Point(at), predicate="intersects")) > 0
-        share = walkable / max(inside, 1)
-        assert share >= 0.98 or inside == 0, f"{self.name}: only {share:.3f} of the footpaths are walkable"
+                    is_walkable.append(len(index.query(Point(at), predicate="intersects")) > 0)
+        share = sum(is_walkable) / max(len(is_walkable), 1)
+        assert share >= 0.98 or not is_walkable, f"{self.name}: only {share:.3f} of the footpaths are walkable"
         return share
 
 

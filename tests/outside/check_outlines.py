@@ -1,12 +1,9 @@
 #!/usr/bin/env python3
 """Compares the houses of OpenDRIVE files with their outlines, which this script reads on its own.
 
-    check_outlines.py INSPECT_JSON FILE...
-
-INSPECT_JSON is the example `inspect_json` of the room `maps`. Each building with an outline has boxes there; its footprint
-has an intersection over union of at least 0.9 in the median. Without guessed roofs its top is the highest corner's, within
-0.3 m for 98 in 100, and its foot is no higher than the lowest corner's; guessed roofs only add to it. Bus stops are no houses.
-"""
+Usage: `check_outlines.py INSPECT_JSON FILE...`. INSPECT_JSON is the example `inspect_json` of the room `maps`. Each building with an outline has
+boxes there; its footprint has an intersection over union of at least 0.9 in the median. Without guessed roofs its top is the highest corner's, within
+0.3 m for 98 in 100, and its foot is no higher than the lowest corner's; guessed roofs only add to it. Bus stops are no houses."""
 
 import json
 import math
@@ -137,28 +134,23 @@ def compare(truth, found):
     return overlaps, feet, tops
 
 
-def main():
-    inspect, *paths = sys.argv[1:]
-    for path in paths:
-        name, truth = path.rsplit("/", 1)[-1], list(houses(path))
-        if not truth:
-            print(f"{name}: no outlines of buildings")
-            continue
-        flat, pitched = (compare(truth, town_of(inspect, path, roofs)) for roofs in ("flat", "pitched"))
-        overlaps, feet, tops = flat
-        missing = [identity for (identity, *_), share in zip(truth, overlaps) if share == 0.0]
-        off = [one for one in tops if abs(one) > 0.3]
-        median, added = statistics.median(overlaps), statistics.median(pitched[2])
-        print(
-            f"{name}: {len(truth)} outlines; footprints: median {median:.3f}, least {min(overlaps):.3f}; feet {statistics.median(feet):+.2f} m, "
-            f"tops {statistics.median(tops):+.2f} m, {len(off)} off by more than 0.3 m; with guessed roofs {added:+.2f} m"
-        )
-        assert not missing, f"{name}: no boxes at {missing[:5]}"
-        assert median >= 0.9, f"{name}: {median}"
-        assert len(off) <= 0.02 * len(truth), f"{name}: {len(off)} tops are off: {off[:5]}"
-        assert max(feet) < 0.1, f"{name}: a house hangs {max(feet):.2f} m over its lowest corner"
-        assert added >= -0.01, f"{name}: guessed roofs take {added} m away"
-
-
-if __name__ == "__main__":
-    main()
+inspect, *paths = sys.argv[1:]
+for path in paths:
+    name, truth = path.rsplit("/", 1)[-1], list(houses(path))
+    if not truth:
+        print(f"{name}: no outlines of buildings")
+        continue
+    flat, pitched = (compare(truth, town_of(inspect, path, roofs)) for roofs in ("flat", "pitched"))
+    overlaps, feet, tops = flat
+    missing = [identity for (identity, *_), share in zip(truth, overlaps) if share == 0.0]
+    off = [one for one in tops if abs(one) > 0.3]
+    median, added = statistics.median(overlaps), statistics.median(pitched[2])
+    print(
+        f"{name}: {len(truth)} outlines; footprints: median {median:.3f}, least {min(overlaps):.3f}; feet {statistics.median(feet):+.2f} m, "
+        f"tops {statistics.median(tops):+.2f} m, {len(off)} off by more than 0.3 m; with guessed roofs {added:+.2f} m"
+    )
+    assert not missing, f"{name}: no boxes at {missing[:5]}"
+    assert median >= 0.9, f"{name}: {median}"
+    assert len(off) <= 0.02 * len(truth), f"{name}: {len(off)} tops are off: {off[:5]}"
+    assert max(feet) < 0.1, f"{name}: a house hangs {max(feet):.2f} m over its lowest corner"
+    assert added >= -0.01, f"{name}: guessed roofs take {added} m away"

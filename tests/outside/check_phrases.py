@@ -1,11 +1,8 @@
 """Reads the phrases of table `phrases` and finds, frame by frame, all visible bodies that they may mean.
 
-    venv/bin/python tests/outside/check_phrases.py DATASET_FOLDER [DATASET_FOLDER ...]
-
-Shares no code with cosfly. Every phrase is read from its own words, in English and in Chinese; both must name the same. In the frame in
-which it is given, a phrase must fit the target and no other body of tables `bodies` and `frames`; in all frames the number of bodies that
-it may fit must be the stated one. Prints how often each property is named.
-"""
+Usage: `check_phrases.py DATASET_FOLDER [DATASET_FOLDER ...]`. Shares no code with cosfly. Every phrase is read from its own words, in English and in
+Chinese; both must name the same. In the frame in which it is given, a phrase must fit the target and no other body of tables `bodies` and `frames`;
+in all frames the number of bodies that it may fit must be the stated one. Prints how often each property is named."""
 
 import re
 import sys

@@ -1,10 +1,8 @@
-"""Compares `cosfly eval` for depth, labels, boxes and masks with numpy, scikit-learn and pycocotools, which read the
-dataset by other ways: pictures from its MCAP logs, annotations from its COCO export.
+"""Compares `cosfly eval` for depth, labels, boxes and masks with numpy, scikit-learn and pycocotools, which read the dataset by other ways: pictures
+from its MCAP logs, annotations from its COCO export.
 
-    venv/bin/python tests/outside/check_picture_scores.py target/release/cosfly DATASET EXPORTS
-
-EXPORTS has imagefolder/ and coco/ of the dataset. Each check prints one line. Exit code 0: everything agrees to 1e-9.
-"""
+Usage: `check_picture_scores.py target/release/cosfly DATASET EXPORTS`. EXPORTS has imagefolder/ and coco/ of the dataset. Each check prints one line.
+Exit code 0: everything agrees to 1e-9."""
 
 import contextlib
 import copy

@@ -1,13 +1,11 @@
 """Lanes and walkable polygons of our OpenDRIVE reader against independent rasters of the same CARLA towns.
 
-usage: check_rasters.py FOLDER_OF_EXAMPLES XODR_FOLDER RASTER_FOLDER   (pip install numpy h5py)
-The folder holds the examples `dump_lanes` and `ground_labels` of the room `maps`, built.
-A raster is HDF5 with layers `road`, `sidewalk` and the attributes `pixels_per_meter` and `world_offset_in_meters`;
-column = (x - offset) * ppm, row = (y - offset) * ppm, y being CARLA's. The rasters leave out the pavements of junction
-corners and draw the others about half a metre wider on either side than the lanes are: hence shares below 1.
-Grass on road is the share of the raster's road whose pixels are grass in our surfaces, seen from above; mostly edges of half a metre.
-Exits 1 below the shares listed in LEAST, and above those in MOST_GRASS.
-"""
+Usage: `check_rasters.py FOLDER_OF_EXAMPLES XODR_FOLDER RASTER_FOLDER` (pip install numpy h5py). The folder holds the examples `dump_lanes` and
+`ground_labels` of the room `maps`, built. A raster is HDF5 with layers `road`, `sidewalk` and the attributes `pixels_per_meter` and
+`world_offset_in_meters`; column = (x - offset) * ppm, row = (y - offset) * ppm, y being CARLA's. The rasters leave out the pavements of junction
+corners and draw the others about half a metre wider on either side than the lanes are: hence shares below 1. Grass on road is the share of the
+raster's road whose pixels are grass in our surfaces, seen from above; mostly edges of half a metre. Exits 1 below the shares listed in LEAST, and
+above those in MOST_GRASS."""
 
 import pathlib
 import sys

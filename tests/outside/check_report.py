@@ -1,23 +1,17 @@
 """Opens a dataset's page in headless Chromium: no error, nothing loaded from elsewhere, readable by all at any width.
 
-    python check_report.py DATASET [--screenshots FOLDER]
+Usage: `check_report.py DATASET [--screenshots FOLDER]`. Needs the package `playwright`, `axe-playwright-python`, and a Chromium: that of playwright,
+or one on the PATH."""
 
-Needs the package `playwright`, `axe-playwright-python`, and a Chromium: that of playwright, or one on the PATH.
-"""
-
-import argparse
-import pathlib
+from pathlib import Path
 
 from playwright.sync_api import sync_playwright
-from shared import chromium_of, end_with, faults_of_page, watch
+from shared import chromium_of, command_line, end_with, faults_of_page, watch
 
 WIDTHS = (1280, 400)
 SCHEMES = ("light", "dark")
 
-parser = argparse.ArgumentParser(description=__doc__)
-parser.add_argument("dataset", type=pathlib.Path)
-parser.add_argument("--screenshots", type=pathlib.Path)
-arguments = parser.parse_args()
+arguments = command_line("dataset", screenshots=Path)
 page_file = (arguments.dataset / "report" / "index.html").resolve()
 address = page_file.as_uri()
 problems = []

@@ -1,8 +1,7 @@
-"""Reads bags of a dataset with rosbags, mcap-ros2-support and Rerun, and compares them with the dataset's tables. The frames are
-computed here anew: from CARLA's left-handed angles, by matrices, without a line of cosfly.
+"""Reads bags of a dataset with rosbags, mcap-ros2-support and Rerun, and compares them with the dataset's tables. The frames are computed here anew:
+from CARLA's left-handed angles, by matrices, without a line of cosfly.
 
-python check_ros2.py DATASET EXPORT
-"""
+Usage: `check_ros2.py DATASET EXPORT`."""
 
 import dataclasses
 import sys
@@ -108,8 +107,7 @@ def check_geometry(of, tree, row):
     if row["visible_pixels"] < 8 or flight["target_kind"] != "pedestrian" or info.d[0] or info.d[1]:
         return 0
     left, top, right, bottom = (int(edge) for edge in row["visible_box_px"])
-    v, u = np.nonzero(labels[top:bottom, left:right] == 12)
-    v, u = v + top, u + left
+    v, u = np.add(np.nonzero(labels[top:bottom, left:right] == 12), [[top], [left]])
     z = depth[v, u].astype(float)
     rays = np.linalg.inv(np.array(info.k).reshape(3, 3)) @ np.array([u, v, np.ones(len(u))])
     rotation, place = tree.in_map("camera_optical_frame")
@@ -176,17 +174,13 @@ def check_rig(bag):
 
 def plain(message):
     """A message of either reader as numbers, texts and lists."""
-    if isinstance(message, np.ndarray):
-        return message.tobytes() if message.dtype == np.uint8 else message.tolist()
-    if isinstance(message, (bytes, bytearray, memoryview)):
+    if isinstance(message, (bytes, bytearray, memoryview)) or isinstance(message, np.ndarray) and message.dtype == np.uint8:
         return bytes(message)
-    if isinstance(message, (list, tuple)):
+    if isinstance(message, (list, tuple, np.ndarray)):
         return [plain(item) for item in message]
-    if dataclasses.is_dataclass(message):
-        names = [field.name for field in dataclasses.fields(message)]
-    elif hasattr(message, "__slots__"):
-        names = message.__slots__
-    else:
+    is_class = dataclasses.is_dataclass(message)
+    names = [field.name for field in dataclasses.fields(message)] if is_class else getattr(message, "__slots__", None)
+    if names is None:
         return message
     # Constants are not content.
     return {name: plain(getattr(message, name)) for name in names if not name.isupper() and name != "__msgtype__"}
@@ -208,13 +202,13 @@ def definitions_are_those_of_ros(bag):
     ros = get_typestore(Stores.ROS2_HUMBLE)
     with AnyReader([bag]) as reader:
         names = set(reader.typestore.fielddefs) & set(ros.fielddefs)
-        for name in names:
-            assert reader.typestore.hash_rihs01(name) == ros.hash_rihs01(name), name
+        assert all(reader.typestore.hash_rihs01(name) == ros.hash_rihs01(name) for name in names)
     assert "visualization_msgs/msg/Marker" in names
     return len(names)
 
 
 bags = sorted(path.parent for path in export.glob("*/*/*/metadata.yaml"))
+assert bags, f"{export} has no bags"
 if len(bags) < len(flights):
     print(f"{len(bags)} bags of rigs, {sum(map(check_rig, bags))} camera poses and boxes as in the tables")
     sys.exit()

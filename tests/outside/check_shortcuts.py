@@ -1,13 +1,10 @@
 """Probes for shortcuts, computed from the tables of a dataset: do place, size and looks tell the target from other people?
 
-    venv/bin/python tests/outside/check_shortcuts.py DATASET_FOLDER [--doctor VERDICT.json] [--pictures N]
-
-Shares no code with cosfly. An AUC is the probability that a target has more of a sign than somebody else; errors are over flights. With the
-JSON file of `cosfly doctor`, its section `shortcuts` must agree. Prints also the place in random crops: a window whose place around the
-target is drawn evenly, as large as a share of the picture. `--pictures` reads colour pictures of so many flights and compares the pixels in
-the boxes of targets and others: all, those as far away, and those of them who are seen from the same side, with a backpack or without
-as the target, and those of them who fill as much of their boxes.
-"""
+Usage: `check_shortcuts.py DATASET_FOLDER [--doctor VERDICT.json] [--pictures N]`. Shares no code with cosfly. An AUC is the probability that a target
+has more of a sign than somebody else; errors are over flights. With the JSON file of `cosfly doctor`, its section `shortcuts` must agree. Prints also
+the place in random crops: a window whose place around the target is drawn evenly, as large as a share of the picture. `--pictures` reads colour
+pictures of so many flights and compares the pixels in the boxes of targets and others: all, those as far away, and those of them who are seen from
+the same side, with a backpack or without as the target, and those of them who fill as much of their boxes."""
 
 import json
 from collections import defaultdict
@@ -176,21 +173,17 @@ def differences(own, doctor, path="shortcuts"):
     return [] if agree else [f"{path}: {own} here, {doctor} by the doctor"]
 
 
-def main():
-    arguments = command_line("folder", doctor=Path, pictures=0)
-    flights, people, frames = shown(arguments.folder)
-    own = {"frames": len(frames), **in_pictures(flights, frames), **of_looks(flights, people)}
-    for name in ("place", "height", "height_in_the_same_place"):
-        say(name, own[name])
-    print(f"looks of {own['targets']} targets and {own['others']} bystanders: "
-          + ", ".join(f"{name} {value:.3f}" for name, value in (own["looks"] or {}).items()))
-    for share in CROPS:
-        found, kept = in_crops(flights, frames, share)
-        say(f"place in random crops of {share:.2f} of the picture ({100 * kept:.0f} % of the frames)", found)
-    for name, found in of_pixels(arguments.folder, flights, frames, arguments.pictures).items() if arguments.pictures else ():
-        say(name, found)
-    if arguments.doctor:
-        end_with(differences(own, json.loads(arguments.doctor.read_text())["shortcuts"]))
-
-
-main()
+arguments = command_line("folder", doctor=Path, pictures=0)
+flights, people, frames = shown(arguments.folder)
+own = {"frames": len(frames), **in_pictures(flights, frames), **of_looks(flights, people)}
+for name in ("place", "height", "height_in_the_same_place"):
+    say(name, own[name])
+print(f"looks of {own['targets']} targets and {own['others']} bystanders: "
+      + ", ".join(f"{name} {value:.3f}" for name, value in (own["looks"] or {}).items()))
+for share in CROPS:
+    found, kept = in_crops(flights, frames, share)
+    say(f"place in random crops of {share:.2f} of the picture ({100 * kept:.0f} % of the frames)", found)
+for name, found in of_pixels(arguments.folder, flights, frames, arguments.pictures).items() if arguments.pictures else ():
+    say(name, found)
+if arguments.doctor:
+    end_with(differences(own, json.loads(arguments.doctor.read_text())["shortcuts"]))

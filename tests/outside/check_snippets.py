@@ -1,7 +1,6 @@
 """Runs the Python examples in the `README.md` of datasets and exports as they stand, each in the folder of its card.
 
-python check_snippets.py FOLDER...
-"""
+Usage: `check_snippets.py FOLDER...`."""
 
 import importlib.util
 import os

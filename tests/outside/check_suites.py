@@ -1,8 +1,6 @@
 """All suites, flown by all baselines: the ranks, what the expert sees, the same bytes again; rounds of DAgger.
 
-Usage: check_suites.py COSFLY SUITES_FOLDER WORK_FOLDER
-Prints the table of the book's page "Benchmarks", section "Baselines in closed loop".
-"""
+Usage: `check_suites.py COSFLY SUITES_FOLDER WORK_FOLDER`. Prints the table of the book's page "Benchmarks", section "Baselines in closed loop"."""
 
 import json
 import pathlib

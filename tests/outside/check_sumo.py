@@ -1,12 +1,9 @@
 #!/usr/bin/env python3
-"""Simulates traffic with the real SUMO on nets that its `netconvert` makes of our towns, and compares what our reader of
-floating-car data says, frame by frame, with the file as Python reads it.
+"""Simulates traffic with the real SUMO on nets that its `netconvert` makes of our towns, and compares what our reader of floating-car data says,
+frame by frame, with the file as Python reads it.
 
-    check_sumo.py FCD_FRAMES FILE.xodr...
-
-Positions and angles must agree to a millimetre and a milliradian: at SUMO's own steps, and between them where frames lie between
-steps. Cars must drive on the lanes that our reader of maps finds, too.
-"""
+Usage: `check_sumo.py FCD_FRAMES FILE.xodr...`. Positions and angles must agree to a millimetre and a milliradian: at SUMO's own steps, and between
+them where frames lie between steps. Cars must drive on the lanes that our reader of maps finds, too."""
 
 import csv
 import io
@@ -127,20 +124,16 @@ def compare(frames_of, town, net, fcd, steps, dt):
     )
 
 
-def main():
-    frames_of, *towns = sys.argv[1:]
-    for town in towns:
-        with tempfile.TemporaryDirectory() as folder:
-            net, routes, fcd = (Path(folder) / name for name in ("town.net.xml", "trips.xml", "fcd.xml"))
-            run(tool("netconvert"), "--opendrive", town, "-o", net, "--sidewalks.guess", "--no-warnings")
-            read = sumolib.net.readNet(str(net))
-            routes.write_text(trips(read, random.Random(7)))
-            run(
-                tool("sumo"), "-n", net, "-r", routes, "--fcd-output", fcd, "--step-length", STEP_S, "--end", END_S + 1,
-                "--ignore-route-errors", "--no-step-log", "--no-warnings", "--precision", 6, "--seed", 7,
-            )  # fmt: skip
-            for dt in (STEP_S, 0.2):
-                compare(frames_of, town, net, fcd, samples(fcd, read.getLocationOffset()), dt)
-
-
-main()
+frames_of, *towns = sys.argv[1:]
+for town in towns:
+    with tempfile.TemporaryDirectory() as folder:
+        net, routes, fcd = (Path(folder) / name for name in ("town.net.xml", "trips.xml", "fcd.xml"))
+        run(tool("netconvert"), "--opendrive", town, "-o", net, "--sidewalks.guess", "--no-warnings")
+        read = sumolib.net.readNet(str(net))
+        routes.write_text(trips(read, random.Random(7)))
+        run(
+            tool("sumo"), "-n", net, "-r", routes, "--fcd-output", fcd, "--step-length", STEP_S, "--end", END_S + 1,
+            "--ignore-route-errors", "--no-step-log", "--no-warnings", "--precision", 6, "--seed", 7,
+        )  # fmt: skip
+        for dt in (STEP_S, 0.2):
+            compare(frames_of, town, net, fcd, samples(fcd, read.getLocationOffset()), dt)

@@ -1,12 +1,10 @@
 """Judges the judge of texts on true ordinary sentences and on texts with one planted error each.
 
-    check_text_judge.py target/ci/examples/judge_of_stdin [--texts 1000] [--show 10]
-
-The program is an example of the crate `cosfly-captions` (`cargo build --release -p cosfly-captions --example judge_of_stdin`). A text is
-written from the facts of a made-up flight with the sentences of paraphrases.txt, which share nothing with cosfly's templates; a planted
-text from facts of which one is changed, or with a thing or a direction that no facts have. Prints the share of planted errors that are
-caught, by their kind, and the share of true texts that are refused, and fails beyond the limits below.
-"""
+Usage: `check_text_judge.py target/ci/examples/judge_of_stdin [--texts 1000] [--show 10]`. The program is an example of the crate `cosfly-captions`
+(`cargo build --release -p cosfly-captions --example judge_of_stdin`). A text is written from the facts of a made-up flight with the sentences of
+paraphrases.txt, which share nothing with cosfly's templates; a planted text from facts of which one is changed, or with a thing or a direction that
+no facts have. Prints the share of planted errors that are caught, by their kind, and the share of true texts that are refused, and fails beyond the
+limits below."""
 
 import copy
 import json
@@ -198,32 +196,28 @@ def judged(program, facts, language, texts):
     return [json.loads(line) for line in run(program, input=lines, encoding="utf-8").splitlines()]
 
 
-def main():
-    given = command_line("program", texts=1000, show=10, seed=1)
-    stream = random.Random(given.seed)
-    facts = {f"flight-{number:03}": made_up_flight(stream) for number in range(120)}
-    flights = {name: Flight(it) for name, it in facts.items()}
-    is_good = True
-    for language in ("en", "zh"):
-        writer, names = Writer(language, given.seed), list(flights)
-        true = [(name, writer.text(flights[name], writer.rng.random() < 0.6)) for name in writer.rng.choices(names, k=given.texts)]
-        wrong, kinds = [], []
-        while len(wrong) < given.texts:
-            slot, name = SLOTS[len(wrong) % len(SLOTS)], writer.rng.choice(names)
-            text = planted(writer, flights[name], slot)
-            if text and (name, text) not in true:
-                wrong.append((name, text))
-                kinds.append(slot)
-        refused = [(text, found) for (_, text), found in zip(true, judged(given.program, facts, language, true), strict=True) if found]
-        missed = [(kind, text) for kind, (_, text), found in zip(kinds, wrong, judged(given.program, facts, language, wrong), strict=True) if not found]
-        caught, share = 1 - len(missed) / len(wrong), len(refused) / len(true)
-        print(f"{language}: {100 * caught:.1f} % of {len(wrong)} planted errors caught, {100 * share:.1f} % of {len(true)} true texts refused; missed {dict(Counter(kind for kind, _ in missed))}")
-        for text, found in refused[: given.show]:
-            print("  refused:", text, "|", "; ".join(found))
-        for kind, text in missed[: given.show]:
-            print("  missed:", kind, "|", text)
-        is_good &= caught >= LEAST_CAUGHT and share <= MOST_REFUSED
-    sys.exit(not is_good)
-
-
-main()
+given = command_line("program", texts=1000, show=10, seed=1)
+stream = random.Random(given.seed)
+facts = {f"flight-{number:03}": made_up_flight(stream) for number in range(120)}
+flights = {name: Flight(it) for name, it in facts.items()}
+is_good = True
+for language in ("en", "zh"):
+    writer, names = Writer(language, given.seed), list(flights)
+    true = [(name, writer.text(flights[name], writer.rng.random() < 0.6)) for name in writer.rng.choices(names, k=given.texts)]
+    wrong, kinds = [], []
+    while len(wrong) < given.texts:
+        slot, name = SLOTS[len(wrong) % len(SLOTS)], writer.rng.choice(names)
+        text = planted(writer, flights[name], slot)
+        if text and (name, text) not in true:
+            wrong.append((name, text))
+            kinds.append(slot)
+    refused = [(text, found) for (_, text), found in zip(true, judged(given.program, facts, language, true), strict=True) if found]
+    missed = [(kind, text) for kind, (_, text), found in zip(kinds, wrong, judged(given.program, facts, language, wrong), strict=True) if not found]
+    caught, share = 1 - len(missed) / len(wrong), len(refused) / len(true)
+    print(f"{language}: {100 * caught:.1f} % of {len(wrong)} planted errors caught, {100 * share:.1f} % of {len(true)} true texts refused; missed {dict(Counter(kind for kind, _ in missed))}")
+    for text, found in refused[: given.show]:
+        print("  refused:", text, "|", "; ".join(found))
+    for kind, text in missed[: given.show]:
+        print("  missed:", kind, "|", text)
+    is_good &= caught >= LEAST_CAUGHT and share <= MOST_REFUSED
+sys.exit(not is_good)

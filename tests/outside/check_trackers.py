@@ -1,11 +1,10 @@
-"""Reads exports for trackers with the software that they are made for, TrackEval and got10k, and compares the scores of `cosfly eval` with
-theirs, for trackers that make mistakes.
+"""Reads exports for trackers with the software that they are made for, TrackEval and got10k, and compares the scores of `cosfly eval` with theirs,
+for trackers that make mistakes.
 
-python check_trackers.py COSFLY DATASET FOLDER     FOLDER has mot/, otb/, uav123/ and lasot/
-"""
+Usage: `check_trackers.py COSFLY DATASET FOLDER`. FOLDER has mot/, otb/, uav123/ and lasot/."""
 
 import configparser
-import glob
+import shutil
 import sys
 import tempfile
 from collections import defaultdict
@@ -129,21 +128,20 @@ def compared():
         for kind, name in there.items():
             with tempfile.TemporaryDirectory() as place:
                 root = Path(place)
+                shutil.copytree(folder / "mot/seqmaps", root / "seqmaps")
                 for sequence, truth in truths.items():
                     (root / split / sequence / "gt").mkdir(parents=True)
-                    (root / split / sequence / "seqinfo.ini").write_text((folder / "mot" / split / sequence / "seqinfo.ini").read_text())
+                    shutil.copy(folder / "mot" / split / sequence / "seqinfo.ini", root / split / sequence)
                     turned = truth.copy()
                     turned[truth[:, 7] == kind, 7] = 1
                     turned[(truth[:, 7] == 1) & (kind != 1), 7] = 3
                     np.savetxt(root / split / sequence / "gt/gt.txt", turned, "%.9g", ",")
-                (root / "seqmaps").mkdir()
-                (root / f"seqmaps/{split}.txt").write_text((folder / f"mot/seqmaps/{split}.txt").read_text())
                 theirs = scores(split, {sequence: lines(rows, kind) for sequence, rows in found.items()}, root)
             same(of_classes[name], theirs.pop("COMBINED_SEQ"), (split, name))
-            ours = {row["sequence"]: row["scores"] for row in report["sequences"] if row["class"] == name}
-            for sequence in ours:
-                same(ours[sequence], theirs[sequence], (sequence, name))
-                count += 1
+            ours = [row for row in report["sequences"] if row["class"] == name]
+            for row in ours:
+                same(row["scores"], theirs[row["sequence"]], (row["sequence"], name))
+            count += len(ours)
             if kind == 1:
                 same({row["name"]: row["scores"] for row in alone["classes"]}["pedestrian"], of_classes[name], split)
     return f"{count} sequences and classes, equal to TrackEval's scores"
@@ -158,14 +156,11 @@ def mot():
         info = info["Sequence"]
         assert int(info["seqLength"]) == row["pictures"] == len(frames[id]) and info["name"] == id
         assert abs(float(info["frameRate"]) * flights[id]["dt_s"] - 1) < 1e-5
-        check_pictures(row, sorted(glob.glob(str(root / info["imDir"] / f"*{info['imExt']}"))))
+        check_pictures(row, sorted((root / info["imDir"]).glob(f"*{info['imExt']}")))
         truth = truth_of(root)
-        expected = {}
-        for number, known in frames[id].items():
-            if known["visible_box_px"]:
-                expected[number + 1, 1] = box(known["visible_box_px"])
-            for body in people[id, number]:
-                expected[number + 1, body["instance"]] = box(body["visible_box_px"])
+        expected = {(number + 1, 1): box(known["visible_box_px"]) for number, known in frames[id].items() if known["visible_box_px"]}
+        for number in frames[id]:
+            expected |= {(number + 1, body["instance"]): box(body["visible_box_px"]) for body in people[id, number]}
         found = {(int(line[0]), int(line[1])): list(line[2:6]) for line in truth}
         assert found == expected and len(found) == len(truth)
         for line in truth:
@@ -185,12 +180,8 @@ def check_target(row, files, boxes, absent):
     assert not absent(boxes[0]), "trackers start from the first box"
 
 
-def without_a_box(found):
-    return bool(np.isnan(found).all())
-
-
-def is_nought(found):
-    return list(found) == [0, 0, 0, 0]
+without_a_box = lambda found: bool(np.isnan(found).all())
+is_nought = lambda found: list(found) == [0, 0, 0, 0]
 
 
 def by_split(export):
@@ -252,7 +243,7 @@ def wandering(boxes, absent):
     found, here = [], boxes[0]
     for number, box in enumerate(boxes):
         if not absent(box):
-            here = box + np.sin(number / 5) * np.array([0.5, 0.2, 0.15, -0.1]) * np.array([box[2], box[3], box[2], box[3]])
+            here = box + np.sin(number / 5) * np.array([0.5, 0.2, 0.15, -0.1]) * box[[2, 3, 2, 3]]
         found.append(np.maximum(here, [-1e9, -1e9, 0, 0]))
     return np.array(found)
 
@@ -289,8 +280,8 @@ def targets():
         report = evaluated(results, "--sequences", folder / export)
         for row in report["sequences"]:
             same(row["scores"], theirs[row["sequence"]], row["sequence"])
-            count += 1
         assert len(report["sequences"]) == len(theirs)
+        count += len(theirs)
         means = {key: np.mean([scores[key] for scores in theirs.values()]) for key in next(iter(theirs.values()))}
         same({key: score["value"] for key, score in report["scores"].items()}, means, export)
     return f"{count} sequences, equal to got10k's scores"

@@ -1,7 +1,6 @@
 """The book's tutorial, literally, in a copy of the recipes: every `sh` block of its pages in one shell, in order.
 
-check_tutorial.py COSFLY FOLDER   (`cargo` is played: the program is there)
-"""
+Usage: `check_tutorial.py COSFLY FOLDER` (`cargo` is played: the program is there)."""
 
 import json
 import os

@@ -1,7 +1,6 @@
 """Reads an export of format v7 with other people's software and holds it to every rule that is known of the release.
 
-python check_v7.py EXPORT
-"""
+Usage: `check_v7.py EXPORT`."""
 
 import json
 import re

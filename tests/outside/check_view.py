@@ -1,21 +1,19 @@
 """Opens `cosfly view` in headless Chromium: worst flight, filter, scrubbing, hostile texts, broken logs, narrow windows, the exported page.
 
-    python check_view.py COSFLY DATASET WORK [--screenshots FOLDER] [--many COUNT] [--timed]
+Usage: `check_view.py COSFLY DATASET WORK [--screenshots FOLDER] [--many COUNT] [--timed]`. WORK is a folder for copies of DATASET. With `--many`,
+first view and scrubbing are timed with that many copies of its flights, and with `--timed`, on an idle machine, times are held, too. Needs
+`playwright`, `axe-playwright-python`, `pyarrow`, and a Chromium: that of playwright, or one on the PATH."""
 
-WORK is a folder for copies of DATASET. With `--many`, first view and scrubbing are timed with that many copies of its flights, and with `--timed`, on
-an idle machine, times are held, too. Needs `playwright`, `axe-playwright-python`, `pyarrow`, and a Chromium: that of playwright, or one on the PATH.
-"""
-
-import argparse
-import pathlib
+import contextlib
 import shutil
 import subprocess
 import time
+from pathlib import Path
 
 import pyarrow as pa
 import pyarrow.parquet as pq
 from playwright.sync_api import sync_playwright
-from shared import chromium_of, end_with, faults_of_page, watch, with_column
+from shared import chromium_of, command_line, end_with, faults_of_page, watch, with_column
 
 FIRST_VIEW_S = 2.0
 PAINTED_MS = 100.0
@@ -23,14 +21,7 @@ MOST_SERVER_MB = 500
 HOSTILE = "<img src=x onerror=\"document.title='owned'\">"
 CHINESE = "晴朗的夜晚"
 
-parser = argparse.ArgumentParser(description=__doc__)
-parser.add_argument("cosfly")
-parser.add_argument("dataset", type=pathlib.Path)
-parser.add_argument("work", type=pathlib.Path)
-parser.add_argument("--screenshots", type=pathlib.Path)
-parser.add_argument("--many", type=int)
-parser.add_argument("--timed", action="store_true")
-arguments = parser.parse_args()
+arguments = command_line("cosfly dataset work", screenshots=Path, many=int, timed=False)
 problems = []
 
 
@@ -40,36 +31,27 @@ def expect(is_so, words):
         problems.append(words)
 
 
-class Viewer:
-    """A running server."""
-
-    def __init__(self, subject):
-        command = [arguments.cosfly, "view", str(subject), "--no-open"]
-        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-        self.address = self.process.stdout.readline().strip()
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.process.terminate()
-        self.process.wait(timeout=30)
-        expect(self.process.returncode == 0, f"the server ended with {self.process.returncode}")
-
-    def peak_mb(self):
-        """Largest memory of the server so far."""
-        status = pathlib.Path(f"/proc/{self.process.pid}/status").read_text()
-        return int(status.split("VmHWM:")[1].split()[0]) / 1024
+@contextlib.contextmanager
+def served(subject):
+    """The address of a running server and its process, which must end well."""
+    process = subprocess.Popen([arguments.cosfly, "view", str(subject), "--no-open"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    try:
+        yield process.stdout.readline().strip(), process
+    finally:
+        process.terminate()
+        process.wait(timeout=30)
+    expect(process.returncode == 0, f"the server ended with {process.returncode}")
 
 
-def open_page(browser, address, name, **options):
+@contextlib.contextmanager
+def opened(browser, address, name, **options):
     """A page that notes errors and requests to others."""
     page = browser.new_page(**{"viewport": {"width": 1360, "height": 900}, **options})
-    own = address.split("?")[0]
-    watch(page, name, problems, own, lambda it: it.type == "error" and "422" not in it.text)  # a wrong filter
+    watch(page, name, problems, address.split("?")[0], lambda it: it.type == "error" and "422" not in it.text)  # a wrong filter
     page.goto(address)
     page.wait_for_selector("#flight:not([hidden]) #map[data-frame]")
-    return page
+    yield page
+    page.close()
 
 
 def shoot(page, name):
@@ -91,8 +73,7 @@ def painted(page, frame):
 
 def check_whole(browser):
     """Worst flight first, its reason and its frame; filters; keys; links."""
-    with Viewer(arguments.dataset) as viewer:
-        page = open_page(browser, viewer.address, "whole")
+    with served(arguments.dataset) as (address, _), opened(browser, address, "whole") as page:
         expect("token" not in page.url, "the token stays in the address")
         page.wait_for_selector("#pictures canvas[data-frame]")
         first = page.locator(".row").first
@@ -103,23 +84,18 @@ def check_whole(browser):
         chosen = page.evaluate("state.flight.number")
         expect(losses[chosen] == max(losses), f"flight {chosen} loses its target for {losses[chosen]} s, another one for {max(losses)} s")
         shoot(page, "whole")
-        for query, is_like in (
-            ("losses_s > 0.5", lambda at: losses[at] > 0.5),
-            ("losses over 0.5 s", lambda at: losses[at] > 0.5),
-            ("not losses_s > 0.5", lambda at: losses[at] <= 0.5),
-        ):
+        for query, is_lost in (("losses_s > 0.5", True), ("losses over 0.5 s", True), ("not losses_s > 0.5", False)):
             page.fill("#query", query)
             shown = page.evaluate("list.order")
-            expect(sorted(shown) == [at for at in range(len(losses)) if is_like(at)], f"`{query}` shows {shown}")
+            expect(sorted(shown) == [at for at, loss_s in enumerate(losses) if (loss_s > 0.5) == is_lost], f"`{query}` shows {shown}")
         for query, words in (("at night facing the sun (experts or twins)", "flight"), ("speed > 3", "no column `speed`"), ("losses_s >", "needs a value"),
                              ("nothing-is-called-so", "no flight is like this"), ("(experts", "not closed"), ("losses_s = high", "with a number")):
             page.fill("#query", query)
             expect(words in page.locator("#matches").inner_text(), f"`{query}`: {page.locator('#matches').inner_text()}")
         page.fill("#query", "")
         page.locator("#map").focus()
-        page.keyboard.press("Home")
-        page.keyboard.press("ArrowRight")
-        page.keyboard.press("Shift+ArrowRight")
+        for key in ("Home", "ArrowRight", "Shift+ArrowRight"):
+            page.keyboard.press(key)
         painted(page, 11)
         page.wait_for_function("() => location.hash.includes('frame=11')")
         page.keyboard.press("ArrowDown")
@@ -128,13 +104,11 @@ def check_whole(browser):
         page.evaluate("link => { location.hash = link; }", link)
         page.wait_for_function("() => state.flight.number == 0 && state.frame == 3")
         expect(page.locator("#beside option").count() >= 2, "no twin stands beside the expert")
-        page.close()
 
 
 def check_places(browser):
     """All flights of a town on the map, of which a click chooses one; the town in 3-D."""
-    with Viewer(arguments.dataset) as viewer:
-        page = open_page(browser, viewer.address, "places")
+    with served(arguments.dataset) as (address, _), opened(browser, address, "places") as page:
         page.click("#all")
         page.wait_for_function("() => map.paths")
         index = "name => state.index.columns.find(it => it.name == name).texts"
@@ -184,7 +158,6 @@ def check_places(browser):
             shoot(page, "solid")
         else:
             print("no WebGL in this browser: the 3-D view is not checked")
-        page.close()
 
 
 def check_empty(browser):
@@ -193,10 +166,10 @@ def check_empty(browser):
     for table in ("trajectories", "frames", "bodies", "captions", "goals", "windows", "crossings"):
         for path in folder.glob(f"data/{table}/*.parquet"):
             pq.write_table(pq.read_table(path)[:0], path)
-    with Viewer(folder) as viewer:
+    with served(folder) as (address, _):
         page = browser.new_page(viewport={"width": 1360, "height": 900})
         page.on("pageerror", lambda it: problems.append(f"empty: error: {it}"))
-        page.goto(viewer.address)
+        page.goto(address)
         page.wait_for_function("() => document.getElementById('matches').textContent")
         words = page.locator("#matches").inner_text()
         expect("no table `trajectories`" in words and "cosfly run" in words, f"an empty dataset is told by `{words}`")
@@ -224,15 +197,14 @@ def check_hostile(browser):
         pq.write_table(with_column(table, "text", [HOSTILE + CHINESE] * len(table)), path)
     for path in sorted(folder.glob("mcap/**/*.mcap")):
         path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
-    with Viewer(folder) as viewer:
-        page = open_page(browser, viewer.address, "hostile", viewport={"width": 400, "height": 900}, color_scheme="dark")
+    narrow_and_dark = {"viewport": {"width": 400, "height": 900}, "color_scheme": "dark"}
+    with served(folder) as (address, _), opened(browser, address, "hostile", **narrow_and_dark) as page:
         page.wait_for_selector("#problem:not([hidden])")
         expect("damaged" in page.locator("#problem").inner_text(), "a broken log is not told")
         expect(HOSTILE in page.locator("#facts").inner_text(), "the town's name is not shown as it is")
         expect(CHINESE in page.locator("#facts").inner_text(), "Chinese is not shown")
         expect(page.locator("main img").count() == 0 and page.title() != "owned", "a text became an element")
         shoot(page, "hostile-narrow-dark")
-        page.close()
 
 
 def check_exported(browser):
@@ -240,13 +212,12 @@ def check_exported(browser):
     path = arguments.work / "page.html"
     subprocess.run([arguments.cosfly, "view", str(arguments.dataset), "--export", str(path)], check=True, stdout=subprocess.DEVNULL)
     expect(path.stat().st_size <= 50_000_000, "the exported page is too large")
-    page = open_page(browser, path.resolve().as_uri(), "exported")
-    page.wait_for_selector("#pictures canvas[data-frame]")
-    expect("exported" in page.locator("#about").inner_text(), "the exported page does not say so")
-    held = "pictures.panes.every(pane => pane.flight.x.every((_, at) => source.picture(pane.flight.number, pictures.place(pane, at), pane.channel)))"
-    expect(page.evaluate(held), "boxes of the exported page are of frames without a picture")
-    shoot(page, "exported")
-    page.close()
+    with opened(browser, path.resolve().as_uri(), "exported") as page:
+        page.wait_for_selector("#pictures canvas[data-frame]")
+        expect("exported" in page.locator("#about").inner_text(), "the exported page does not say so")
+        held = "pictures.panes.every(pane => pane.flight.x.every((_, at) => source.picture(pane.flight.number, pictures.place(pane, at), pane.channel)))"
+        expect(page.evaluate(held), "boxes of the exported page are of frames without a picture")
+        shoot(page, "exported")
 
 
 def multiplied(count):
@@ -276,43 +247,42 @@ def check_many(browser):
     """Times of first view and scrubbing, memory of the server."""
     folder = multiplied(arguments.many)
     began = time.monotonic()
-    with Viewer(folder) as viewer:
-        ready_s = time.monotonic() - began
-        began = time.monotonic()
-        page = open_page(browser, viewer.address, "many")
-        page.wait_for_selector("#pictures canvas[data-frame]")
-        first_s = time.monotonic() - began
-        shoot(page, "many")
-        frames = page.evaluate("state.flight.x.length")
-        for frame in range(frames):
-            page.evaluate("frame => setFrame(frame)", frame)
-            painted(page, frame)
-        times = page.evaluate(
-            """async frames => {
-                const times = [];
-                for (let at = 0; at < 200; at += 1) {
-                    const [frame, began] = [(at * 7) % frames, performance.now()];
-                    setFrame(frame);
-                    await new Promise(done => {
-                        const look = () => [...document.querySelectorAll('#pictures canvas')].every(it => it.dataset.frame == frame)
-                            ? done() : requestAnimationFrame(look);
-                        requestAnimationFrame(look);
-                    });
-                    times.push(performance.now() - began);
-                }
-                return times.sort((a, b) => a - b);
-            }""",
-            frames,
-        )
-        peak_mb, size = viewer.peak_mb(), page.evaluate("state.flight.size")
-        late_ms = times[int(0.95 * len(times))]
-        flights = page.evaluate("state.index.flights")
-        print(f"{flights} flights: server ready after {ready_s:.2f} s, first view {first_s:.2f} s; of 200 inputs at {size[0]} x {size[1]} "
-              f"95 % painted within {late_ms:.0f} ms; server {peak_mb:.0f} MB")
-        expect(not arguments.timed or first_s <= FIRST_VIEW_S, f"the first view takes {first_s:.2f} s")
-        expect(not arguments.timed or late_ms <= PAINTED_MS, f"95 % of inputs are painted within {late_ms:.0f} ms")
-        expect(peak_mb <= MOST_SERVER_MB, f"the server takes {peak_mb:.0f} MB")
-        page.close()
+    with served(folder) as (address, process):
+        ready_s, began = time.monotonic() - began, time.monotonic()
+        with opened(browser, address, "many") as page:
+            page.wait_for_selector("#pictures canvas[data-frame]")
+            first_s = time.monotonic() - began
+            shoot(page, "many")
+            frames = page.evaluate("state.flight.x.length")
+            for frame in range(frames):
+                page.evaluate("frame => setFrame(frame)", frame)
+                painted(page, frame)
+            times = page.evaluate(
+                """async frames => {
+                    const times = [];
+                    for (let at = 0; at < 200; at += 1) {
+                        const [frame, began] = [(at * 7) % frames, performance.now()];
+                        setFrame(frame);
+                        await new Promise(done => {
+                            const look = () => [...document.querySelectorAll('#pictures canvas')].every(it => it.dataset.frame == frame)
+                                ? done() : requestAnimationFrame(look);
+                            requestAnimationFrame(look);
+                        });
+                        times.push(performance.now() - began);
+                    }
+                    return times.sort((a, b) => a - b);
+                }""",
+                frames,
+            )
+            status = Path(f"/proc/{process.pid}/status").read_text()
+            peak_mb, size = int(status.split("VmHWM:")[1].split()[0]) / 1024, page.evaluate("state.flight.size")
+            late_ms = times[int(0.95 * len(times))]
+            flights = page.evaluate("state.index.flights")
+            print(f"{flights} flights: server ready after {ready_s:.2f} s, first view {first_s:.2f} s; of 200 inputs at {size[0]} x {size[1]} "
+                  f"95 % painted within {late_ms:.0f} ms; server {peak_mb:.0f} MB")
+            expect(not arguments.timed or first_s <= FIRST_VIEW_S, f"the first view takes {first_s:.2f} s")
+            expect(not arguments.timed or late_ms <= PAINTED_MS, f"95 % of inputs are painted within {late_ms:.0f} ms")
+            expect(peak_mb <= MOST_SERVER_MB, f"the server takes {peak_mb:.0f} MB")
 
 
 with sync_playwright() as playwright:

@@ -1,9 +1,6 @@
 """Loads an export of format vlm with the loaders of LLaMA-Factory and ms-swift, those of them that are installed.
 
-    venv/bin/python tests/outside/check_vlm_loaders.py EXPORT_FOLDER
-
-Every line must become a question with as many `<image>` as pictures, which exist, and an answer.
-"""
+Usage: `check_vlm_loaders.py EXPORT_FOLDER`. Every line must become a question with as many `<image>` as pictures, which exist, and an answer."""
 
 import importlib.machinery
 import importlib.util

@@ -1,11 +1,8 @@
 """Reads the instructions of table `windows` and compares every claim with the other tables.
 
-    venv/bin/python tests/outside/check_window_texts.py DATASET_FOLDER
-
-Shares no code with cosfly. A claim is found by its words, in English and in Chinese, and judged by the boxes, pixels, places and clothes of tables
-`frames`, `bodies` and `trajectories` in the last frame of the input, and by the boxes of table `objects`: a landmark must be there, be alone there,
-and rays from the camera must reach it inside of the picture. Prints how often each claim occurs.
-"""
+Usage: `check_window_texts.py DATASET_FOLDER`. Shares no code with cosfly. A claim is found by its words, in English and in Chinese, and judged by the
+boxes, pixels, places and clothes of tables `frames`, `bodies` and `trajectories` in the last frame of the input, and by the boxes of table `objects`:
+a landmark must be there, be alone there, and rays from the camera must reach it inside of the picture. Prints how often each claim occurs."""
 
 import re
 import sys
@@ -175,27 +172,23 @@ def claims(text, picture):
             yield f"{where} one", [it["top_colour"] for it in along] == colours(clause)
 
 
-def main():
-    folder = sys.argv[1]
-    flights, frames, seen = flown(folder)
-    towns, on_road = Town.all_of(folder), ("pedestrian", "bicycle", "motorcycle")
-    counts, wrong, local, windows, silent = Counter(), [], 0, 0, 0
-    for row in rows(folder, "windows", ["trajectory_id", "start_frame", "input_boxes_px", "instruction_en", "instruction_zh"]):
-        name, start = row["trajectory_id"], row["start_frame"]
-        last = start + len(row["input_boxes_px"]) // 4 - 1
-        people = [it for it in seen[name, last] if it["kind"] in on_road]
-        picture = Picture(flights[name], frames[name][last], frames[name][start], people, towns[flights[name]["town"]])
-        found = []
-        for text in map(as_walked, filter(None, (row["instruction_en"], row["instruction_zh"]))):
-            found = list(claims(text, picture))
-            counts.update(claim for claim, _ in found)
-            wrong += [f"{claim} in frame {last} of {name}: {text}" for claim, holds in found if not holds]
-        windows += 1
-        silent += not row["instruction_en"]
-        local += any(claim not in ("clothes", "backpack", "seen") for claim, _ in found)
-    print(f"{windows} windows, {silent} of them behind vehicles and without a text, {100 * local / max(1, windows - silent):.0f} % of the others with a claim about the picture; {dict(counts.most_common())}")
-    require(not wrong, f"{len(wrong)} claims are wrong:\n" + "\n".join(wrong[:10]))
-    require(local >= 0.5 * (windows - silent), "less than half of the windows say anything about the picture")
-
-
-main()
+folder = sys.argv[1]
+flights, frames, seen = flown(folder)
+towns, on_road = Town.all_of(folder), ("pedestrian", "bicycle", "motorcycle")
+counts, wrong, local, windows, silent = Counter(), [], 0, 0, 0
+for row in rows(folder, "windows", ["trajectory_id", "start_frame", "input_boxes_px", "instruction_en", "instruction_zh"]):
+    name, start = row["trajectory_id"], row["start_frame"]
+    last = start + len(row["input_boxes_px"]) // 4 - 1
+    people = [it for it in seen[name, last] if it["kind"] in on_road]
+    picture = Picture(flights[name], frames[name][last], frames[name][start], people, towns[flights[name]["town"]])
+    found = []
+    for text in map(as_walked, filter(None, (row["instruction_en"], row["instruction_zh"]))):
+        found = list(claims(text, picture))
+        counts.update(claim for claim, _ in found)
+        wrong += [f"{claim} in frame {last} of {name}: {text}" for claim, holds in found if not holds]
+    windows += 1
+    silent += not row["instruction_en"]
+    local += any(claim not in ("clothes", "backpack", "seen") for claim, _ in found)
+print(f"{windows} windows, {silent} of them behind vehicles and without a text, {100 * local / max(1, windows - silent):.0f} % of the others with a claim about the picture; {dict(counts.most_common())}")
+require(not wrong, f"{len(wrong)} claims are wrong:\n" + "\n".join(wrong[:10]))
+require(local >= 0.5 * (windows - silent), "less than half of the windows say anything about the picture")

@@ -1,8 +1,7 @@
 """A hundred hostile policies for `check_hostile.py`: modules in Python, and servers that speak (or do not speak) WebSocket.
 
-`MODULES` has the text of a module by name; its function is `act`. `SERVERS` has functions by name that get a connection after its
-request was read. Each comes with whether the policy may count as set up: then its faults are scored.
-"""
+`MODULES` has the text of a module by name; its function is `act`. `SERVERS` has functions by name that get a connection after its request was read.
+Each comes with whether the policy may count as set up: then its faults are scored."""
 
 import base64
 import contextlib

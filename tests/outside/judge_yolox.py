@@ -1,7 +1,6 @@
 """A third network for judge_pictures.py: YOLOX-Nano, which others trained on COCO, in the form that ncnn reads.
 
-The weights are `yolox-nano.param` and `yolox-nano.bin`, as in github.com/nihui/ncnn-android-yolox, app/src/main/assets; `pip install ncnn` runs them.
-"""
+The weights are `yolox-nano.param` and `yolox-nano.bin`, as in github.com/nihui/ncnn-android-yolox, app/src/main/assets; `pip install ncnn` runs them."""
 
 from pathlib import Path
 

@@ -36,16 +36,11 @@ def relief(vertices):
     return {"type": "TINRelief", "geometry": [{"type": "CompositeSurface", "lod": "1", "boundaries": triangles}]}
 
 
-def main():
-    random_, vertices = random.Random(5), []
-    things = {f"house_{j}_{i}": house(vertices, 40 + 38 * i, 30 + 48 * j, random_) for j in range(40) for i in range(50)}
-    things["hill"] = relief(vertices)
-    transform = {"scale": [0.001] * 3, "translate": [85_000, 447_000, 0]}
-    metadata = {"referenceSystem": "https://www.opengis.net/def/crs/EPSG/0/7415"}
-    city = {"type": "CityJSON", "version": "2.0", "transform": transform, "metadata": metadata, "CityObjects": things, "vertices": vertices}
-    with open(sys.argv[1], "w", encoding="utf-8") as file:
-        json.dump(city, file)
-
-
-if __name__ == "__main__":
-    main()
+random_, vertices = random.Random(5), []
+things = {f"house_{j}_{i}": house(vertices, 40 + 38 * i, 30 + 48 * j, random_) for j in range(40) for i in range(50)}
+things["hill"] = relief(vertices)
+transform = {"scale": [0.001] * 3, "translate": [85_000, 447_000, 0]}
+metadata = {"referenceSystem": "https://www.opengis.net/def/crs/EPSG/0/7415"}
+city = {"type": "CityJSON", "version": "2.0", "transform": transform, "metadata": metadata, "CityObjects": things, "vertices": vertices}
+with open(sys.argv[1], "w", encoding="utf-8") as file:
+    json.dump(city, file)

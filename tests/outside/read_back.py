@@ -3,8 +3,7 @@
     python3 -m venv venv && venv/bin/pip install -r tests/outside/requirements.txt
     venv/bin/python tests/outside/read_back.py DATASET_FOLDER
 
-Each check prints one line. Exit code 0: every reader read everything.
-"""
+Each check prints one line. Exit code 0: every reader read everything."""
 
 import hashlib
 import json

@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 """Runs the Python examples of pages of the book, one after the other, as a reader would: python run_page.py PAGE...
 
-A page with `<!-- needs: MODULE -->` is skipped, with a line that says so, where the module is not installed.
-"""
+A page with `<!-- needs: MODULE -->` is skipped, with a line that says so, where the module is not installed."""
 
 import importlib.util
 import re

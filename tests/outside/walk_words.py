@@ -1,8 +1,7 @@
 """What a walk does by the places of the feet alone, and whether a description of it says so: turns, times, length and pace.
 
-Shares no code with cosfly. At every quarter of a metre of the way, the chord of the 3 m (5 m) before it and the chord of the 3 m (5 m) behind it
-have an angle: the way turns there as far as both say, and somebody may call it a turn where one of them says so.
-"""
+Shares no code with cosfly. At every quarter of a metre of the way, the chord of the 3 m (5 m) before it and the chord of the 3 m (5 m) behind it have
+an angle: the way turns there as far as both say, and somebody may call it a turn where one of them says so."""
 
 import re
 from functools import cache

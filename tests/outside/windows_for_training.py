@@ -1,10 +1,7 @@
 """Makes the four kinds of training data of the book's page "Training windows" from a dataset and checks them.
 
-    venv/bin/python tests/outside/windows_for_training.py COSFLY DATASET_FOLDER
-
-Reads with pyarrow alone. The increments of table `windows` are recomputed from the poses of table `waypoints`, and
-handed to `cosfly eval` as predictions, which must then be perfect, along both kinds of axes.
-"""
+Usage: `windows_for_training.py COSFLY DATASET_FOLDER`. Reads with pyarrow alone. The increments of table `windows` are recomputed from the poses of
+table `waypoints`, and handed to `cosfly eval` as predictions, which must then be perfect, along both kinds of axes."""
 
 import json
 import sys
