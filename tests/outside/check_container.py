@@ -1,22 +1,18 @@
 """Carries the Dockerfile out in a plain shell, without a daemon: its stages are folders, what it builds is a binary that is there.
 
-python check_container.py COSFLY WORK
-
-`COPY` and `RUN` do their work, with three differences: absolute paths lie in the folder of the stage, Debian's packages are
-looked up and not installed (as root on Debian), and `cargo build` checks the copied workspace and takes COSFLY. Then the commands of
-the Dockerfile's first lines run as a user without rights.
-"""
+Usage: `check_container.py COSFLY WORK`. `COPY` and `RUN` do their work, with three differences: absolute paths lie in the folder of the stage,
+Debian's packages are looked up and not installed (as root on Debian), and `cargo build` checks the copied workspace and takes COSFLY. Then the
+commands of the Dockerfile's first lines run as a user without rights."""
 
 import os
 import re
 import shlex
 import shutil
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-from shared import require, run, said
+from shared import program, require, run, said
 
 cosfly, work = (Path(argument).resolve() for argument in sys.argv[1:])
 repository = Path(__file__).resolve().parents[2]
@@ -35,8 +31,7 @@ update) {shutil.which("apt-get")} -qq update || echo "not updated" ;;
 esac
 """
 for name, text in {"cargo": CARGO, "apt-get": APT if os.getuid() == 0 and shutil.which("apt-get") else ":"}.items():
-    (tools / name).write_text(f"#!/bin/sh\nset -e\n{text}")
-    (tools / name).chmod(0o755)
+    program(tools / name, f"set -e\n{text}")
 environment = os.environ | {"PATH": f"{tools}:{os.environ['PATH']}"}
 
 
@@ -85,11 +80,11 @@ for line in filter(lambda it: it and not it.startswith("#"), lines):
     said(name, text[:100])
 
 root, entry = work / "stages" / stage, last["ENTRYPOINT"]
-program = root / "usr/local/bin" / entry[0]
-needed = set(re.findall(r"^\s*([^/\s]+?)\.so", run("ldd", program), re.M))
+installed = root / "usr/local/bin" / entry[0]
+needed = set(re.findall(r"^\s*([^/\s]+?)\.so", run("ldd", installed), re.M))
 require(needed <= {"linux-vdso", "libgcc_s", "libm", "libc"}, f"a bare Debian lacks some of {needed}")
-require("Usage" in run(program, *last["CMD"]), "CMD says nothing")
-user = [*("setpriv --reuid=65534 --regid=65534 --clear-groups".split() if os.getuid() == 0 else [])]
+require("Usage" in run(installed, *last["CMD"]), "CMD says nothing")
+user = "setpriv --reuid=65534 --regid=65534 --clear-groups".split() if os.getuid() == 0 else []
 place = inside(stage, "", folder)
 place.chmod(0o777)
 temporary = Path(tempfile.gettempdir()).resolve()
@@ -98,7 +93,7 @@ for part in [work, *work.parents]:
         part.chmod(part.stat().st_mode | 0o111)
 command = next(line for line in lines if "docker run" in line).split(" cosfly ", 1)[1]
 arguments = [str(root) + it if it.startswith("/") else it for it in shlex.split(command)]
-run(*user, program, *arguments, cwd=place, env={"PATH": "/usr/bin:/bin"})
+run(*user, installed, *arguments, cwd=place, env={"PATH": "/usr/bin:/bin"})
 made = [path.name for path in (place / "out").iterdir()]
-run(program, "verify", place / "out" / made[0])
+run(installed, "verify", place / "out" / made[0])
 said("docker run", f"{command}: {made}")

@@ -1,9 +1,7 @@
 """The logs, clips and page of a result of `cosfly fly`, read by others: the package mcap, pillow, an HTML parser.
 
-With the folder that `cosfly fly bags` made of it, its bags are read by rosbags and mcap-ros2-support, compared with the steps, and imported by Rerun.
-
-Usage: check_flown.py RESULT_FOLDER [BAGS]
-"""
+Usage: `check_flown.py RESULT_FOLDER [BAGS]`. With the folder that `cosfly fly bags` made of it, its bags are read by rosbags and mcap-ros2-support,
+compared with the steps, and imported by Rerun."""
 
 import html.parser
 import json
@@ -39,8 +37,8 @@ for row in rows:
     assert any(entity.cubes for entity in topics["/scene"][0][1].entities), name
     reward = 0.0
     for step, (_, pose), (_, state), (_, flown) in zip(steps, topics["/drone/pose"], topics["/target/state"], topics["/flight/step"], strict=True):
-        x, y, z = step["position_in_world"]
-        assert (pose.pose.position.x, pose.pose.position.y, pose.pose.position.z) == (x, -y, z)
+        (x, y, z), at = step["position_in_world"], pose.pose.position
+        assert (at.x, at.y, at.z) == (x, -y, z)
         assert (state.feet_x_m, -state.feet_y_m, state.feet_z_m) == tuple(step["target_in_world"])
         assert math.isclose(state.distance_m, math.dist(step["position_in_world"], step["target_in_world"]))
         assert (flown.tracked, flown.visible, list(flown.reward_terms)) == (step["tracked"], step["visible"], step["reward"])
@@ -63,19 +61,14 @@ for clip in clips:
 
 
 class Page(html.parser.HTMLParser):
-    """Collects what a page refers to."""
-
-    def __init__(self):
-        super().__init__()
-        self.links = []
+    """Collects the files that a page refers to."""
 
     def handle_starttag(self, tag, attributes):
-        self.links += [value for key, value in attributes if key in ("src", "href") and value[:1] != "#"]
+        links.extend(value for key, value in attributes if key in ("src", "href") and not value.startswith(("#", "data:")))
 
 
-page = Page()
-page.feed((folder / "report.html").read_text())
-links = [link for link in page.links if not link.startswith("data:")]
+links = []
+Page().feed((folder / "report.html").read_text())
 assert links and all((folder / link).is_file() for link in links), links
 print(f"{len(rows)} logs with {lost} losses, {len(clips)} clips and the page hold together")
 
