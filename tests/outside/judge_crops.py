@@ -1,7 +1,6 @@
 """Squares around targets in pictures, and what is measured of them: the front half of judge_pictures.py.
 
-Reads datasets (boxes from the tables, pictures from the logs) and folders of real frames with a file of boxes.
-"""
+Reads datasets (boxes from the tables, pictures from the logs) and folders of real frames with a file of boxes."""
 
 import hashlib
 import json
@@ -72,9 +71,7 @@ def cut(picture, box):
 
 def size_of(height_px):
     """Name of the bin of a target's height."""
-    edges = (LEAST_PX, 30, 60, 120, 240)
-    low = max(edge for edge in edges if edge <= height_px)
-    return f"from {low:03} px"
+    return f"from {max(edge for edge in (LEAST_PX, 30, 60, 120, 240) if edge <= height_px):03} px"
 
 
 def evenly(rows, most):
@@ -91,11 +88,9 @@ def is_seen(row, film, visible):
 
 def crops_of_dataset(dataset, visible, per_film, by_camera, where):
     """Crops of the targets of a dataset, at most `per_film` of a flight and camera, and the first picture of each."""
-    frames, crops, kept = {}, [], {}
-    for row in sorted(shared.rows(dataset, "frames"), key=lambda row: row["frame"]):
-        frames.setdefault(row["trajectory_id"], []).append(row)
-    for film in sorted(shared.rows(dataset, "trajectories"), key=lambda row: row["trajectory_id"]):
-        seen = [row for row in frames[film["trajectory_id"]] if is_seen(row, film, visible)]
+    (films, frames, _), crops, kept = shared.flown(dataset, of_bodies=["kind"]), [], {}
+    for _, film in sorted(films.items()):
+        seen = [row for _, row in sorted(frames[film["trajectory_id"]].items()) if is_seen(row, film, visible)]
         chosen = {row["frame"]: row for row in evenly(seen, per_film)}
         for number, picture in pictures_of_log(Path(dataset) / film["mcap_path"], chosen):
             row = chosen[number]

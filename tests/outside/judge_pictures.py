@@ -4,8 +4,7 @@
     venv/bin/python tests/outside/judge_pictures.py --cosfly target/release/cosfly
 
 Makes pictures in several towns, weathers and sizes, cuts squares around the targets and prints how many of them two networks find, with
-95 % intervals over flights, and how natural the pictures are by number. The book's page "An outside judge of pictures" has the protocol.
-"""
+95 % intervals over flights, and how natural the pictures are by number. The book's page "An outside judge of pictures" has the protocol."""
 
 import argparse
 import json
@@ -14,8 +13,7 @@ import os
 import shutil
 import subprocess
 import tempfile
-from collections import Counter
-from dataclasses import replace
+from collections import Counter, defaultdict
 from pathlib import Path
 
 import numpy as np
@@ -63,26 +61,26 @@ def dataset_of(what, town, options):
 
 def sets_of(options):
     """Crops and pictures of all sets to judge, by name."""
-    sets = {}
+    sets = defaultdict(lambda: ([], {}))
+
+    def add(name, found):
+        crops, pictures = sets[name]
+        crops.extend(found[0])
+        pictures.update(found[1])
+
     if options.boxes_of:
-        sets[options.label] = crops_of_dataset(options.boxes_of, VISIBLE["vehicles"], options.crops_per_film, False, "dataset")
+        add(options.label, crops_of_dataset(options.boxes_of, VISIBLE["vehicles"], options.crops_per_film, False, "dataset"))
     for what in [] if options.boxes_of or options.only == "real" else [options.only] if options.only else ["people", "vehicles"]:
-        crops, pictures = [], {}
         for town in options.towns:
             dataset = dataset_of(what, town, options)
-            found = crops_of_dataset(dataset, VISIBLE[what], options.crops_per_film, what == "people", f"{what} {town.name}")
-            crops += found[0]
-            pictures |= found[1]
+            where = f"{what} {town.name}"
+            add(f"{options.label}, {what}", crops_of_dataset(dataset, VISIBLE[what], options.crops_per_film, what == "people", where))
             shutil.rmtree(dataset)
-        sets[f"{options.label}, {what}"] = (crops, pictures)
     for folder, boxes, *more in options.real:
-        kind, first = more[0] if more else "pedestrian", int(more[1]) if len(more) > 1 else 0
+        kind, first = more + ["pedestrian", "0"][len(more) :]
         if kind not in RIGHT:
             raise SystemExit(f"judge_pictures: `{kind}` is no kind; use one of {', '.join(RIGHT)}")
-        crops, pictures = sets.setdefault("real, people" if kind == "pedestrian" else "real, vehicles", ([], {}))
-        found = crops_of_frames(folder, boxes, kind, first, options.real_crops)
-        crops += found[0]
-        pictures |= found[1]
+        add(f"real, {'people' if kind == 'pedestrian' else 'vehicles'}", crops_of_frames(folder, boxes, kind, int(first), options.real_crops))
     for crops, _ in sets.values():
         large = [crop for crop in crops if crop.size in ("px090", "as filmed") and crop.kind == "pedestrian"]
         crops += [crop.reduced(factor) for factor in (2, 3) for crop in large]
@@ -107,8 +105,8 @@ def row_of(crops, rng):
     for network in NETWORKS:
         if network not in crops[0].answer or network == "nanodet" and any(crop.kind != "pedestrian" for crop in crops):
             continue
-        scores = [crop.score(network) for crop in crops]
-        recall = interval([score > SCORE for score in scores], [crop.flight for crop in crops], rng)
+        scores = np.array([crop.score(network) for crop in crops])
+        recall = interval(scores > SCORE, [crop.flight for crop in crops], rng)
         row[network] = {"recall": recall, "median_score": float(np.median(scores))}
     row["named"] = Counter(crop.named() for crop in crops).most_common(3)
     return row
@@ -160,11 +158,9 @@ def naturalness(name, crops, pictures):
 
 def distances(sets):
     """Frechet distance of squares of people to real ones of about the same height, beside that of one half of those to the other."""
-    sizes = {}
-    for name, (crops, _) in sets.items():
-        for crop in crops:
-            if crop.kind == "pedestrian":
-                sizes.setdefault((name.startswith("real"), f"{name}, {crop.size}"), []).append(crop)
+    sizes = defaultdict(list)
+    for name, crop in ((name, crop) for name, (crops, _) in sets.items() for crop in crops if crop.kind == "pedestrian"):
+        sizes[name.startswith("real"), f"{name}, {crop.size}"].append(crop)
     rows, sizes = {}, {key: crops for key, crops in sizes.items() if len(crops) >= 20}
     for (_, name), theirs in filter(lambda entry: entry[0][0], sizes.items()):
         features, half = [crop.answer["features"] for crop in theirs], len(theirs) // 2
