@@ -6,13 +6,12 @@
 Shares no code with cosfly: distances from boxes that stand and boxes that move are sampled at 25 moments a frame, and at 1,000 moments where
 a sample lies within half a metre above the clearance limit. Between frames drone and boxes go evenly; boxes turn the shorter way. Prints the numbers of flights, contacts
 (nearer than 0.5 m) and flights nearer than their limits, and the least distances; ends with 1 where there is a contact or one too near.
-With `--any`, contacts are counted and none is a fault, as for other planners.
-"""
+With `--any`, contacts are counted and none is a fault, as for other planners."""
 
-import struct
 import sys
 
 import numpy as np
+from shared import require
 
 CONTACT_M, CAP_M, ROUNDING = 0.5, 5.0, 1e-9
 MOMENTS, FINE = 25, 1000
@@ -20,13 +19,12 @@ MOMENTS, FINE = 25, 1000
 
 def read_exactly(file, count):
     data = file.read(count)
-    if len(data) != count:
-        sys.exit(f"the file ends {count - len(data)} bytes too early")
+    require(len(data) == count, f"the file ends {count - len(data)} bytes too early")
     return data
 
 
 def number(file):
-    return struct.unpack("<I", read_exactly(file, 4))[0]
+    return int.from_bytes(read_exactly(file, 4), "little")
 
 
 def reals(file, *shape):
@@ -38,8 +36,7 @@ def records(file):
     standing = np.zeros((0, 7))
     while kind := file.read(1):
         if kind == b"S":
-            count = number(file)
-            standing = reals(file, count, 7)
+            standing = reals(file, number(file), 7)
             continue
         name = read_exactly(file, number(file)).decode()
         if kind == b"N":
@@ -83,8 +80,7 @@ def from_moving(waypoints, movers, limit):
     count, frames = movers.shape[:2]
     if count == 0 or frames < 2:
         return CAP_M
-    drone_a = np.broadcast_to(waypoints[:-1], (count, frames - 1, 3)).reshape(-1, 3)
-    drone_b = np.broadcast_to(waypoints[1:], (count, frames - 1, 3)).reshape(-1, 3)
+    drone_a, drone_b = (np.broadcast_to(way, (count, frames - 1, 3)).reshape(-1, 3) for way in (waypoints[:-1], waypoints[1:]))
     return least(drone_a, drone_b, movers[:, :-1].reshape(-1, 7), movers[:, 1:].reshape(-1, 7), limit)
 
 
@@ -109,15 +105,14 @@ def main(path, may_touch):
             if waypoints is None:
                 continue
             flights += 1
-            if not (np.isfinite(waypoints).all() and np.isfinite(movers).all()):
-                sys.exit(f"{name}: a number is not finite")
+            require(np.isfinite(waypoints).all() and np.isfinite(movers).all(), f"{name}: a number is not finite")
             moving, still = from_moving(waypoints, movers, limit), from_standing(waypoints, standing, limit)
             least_moving, least_standing = min(least_moving, moving), min(least_standing, still)
             contacts += min(moving, still) < CONTACT_M
-            if min(moving, still) < limit - ROUNDING:
-                near += 1
-                if near <= 20:
-                    print(f"  {name}: {moving:.3f} m from what moves, {still:.3f} m from what stands")
+            is_near = min(moving, still) < limit - ROUNDING
+            near += is_near
+            if is_near and near <= 20:
+                print(f"  {name}: {moving:.3f} m from what moves, {still:.3f} m from what stands")
     print(f"{paths} paths, {flights} flights: {contacts} contacts, {near} nearer than their limits; "
           f"least {least_moving:.3f} m from what moves, {least_standing:.3f} m from what stands")
     if paths == 0 or (not may_touch and (contacts or near)):

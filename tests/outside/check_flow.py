@@ -1,19 +1,14 @@
 """Judges the optical flow of a dataset by reprojection: from depth, ids, the camera's poses and the tables of bodies alone.
 
-    venv/bin/python tests/outside/check_flow.py DATASET_FOLDER [--least-pixels N] [--plant scale|sign|swap|frame]
+Usage: `check_flow.py DATASET_FOLDER [--least-pixels N] [--plant scale|sign|swap|frame]`. Shares no code with cosfly. What stands (town, ground, sky)
+and vehicles must agree to 0.01 px beyond the step of the stored depth, through the lens. People move part by part: their pixels may differ from their
+body's motion by what a limb can do in a frame, and most of the ways that the mask calls seen must end on the same person. The mask is compared with
+the depth that the neighbouring frame has there. Needs logs without a rolling shutter. `--plant` spoils the flow first: the check must then fail."""
 
-Shares no code with cosfly. What stands (town, ground, sky) and vehicles must agree to 0.01 px beyond the step of the stored depth, through the
-lens. People move part by part: their pixels may differ from their body's motion by what a limb can do in a frame, and most of the ways that
-the mask calls seen must end on the same person. The mask is compared with the depth that the neighbouring frame has there. Needs logs without
-a rolling shutter. `--plant` spoils the flow first: the check must then fail.
-"""
-
-import argparse
 from collections import defaultdict
-from pathlib import Path
 
 import numpy as np
-from shared import axes_of, end_with, messages, pixels, place, require, rows, world_from_body
+from shared import axes_of, command_line, end_with, flown, messages, pixels, place, require, rows, world_from_body
 
 RIDER = 13
 MOST_PX = 0.01
@@ -69,12 +64,9 @@ def spoiled(flow, how):
 
 class Judge:
     def __init__(self, folder, plant):
-        self.plant, self.wrong, self.counts, self.worst = plant, [], defaultdict(int), defaultdict(float)
+        self.folder, self.plant, self.wrong, self.counts, self.worst = folder, plant, [], defaultdict(int), defaultdict(float)
         self.objects = {row["instance"] for row in rows(folder, "objects", ["instance"])}
-        self.folder = folder
-        self.flights, self.frames = rows(folder, "trajectories"), defaultdict(dict)
-        for row in rows(folder, "frames"):
-            self.frames[row["trajectory_id"]][row["frame"]] = row
+        self.flights, self.frames, _ = flown(folder)
         self.bodies = defaultdict(dict)
         for row in rows(folder, "bodies", ["trajectory_id", "frame", "instance", "kind", "feet_in_world_m", "heading_deg"]):
             self.bodies[row["trajectory_id"], row["frame"]][row["instance"]] = row
@@ -93,11 +85,10 @@ class Judge:
             for frame, flow in enumerate(logged[name]):
                 other = frame + step + (self.plant == "frame")
                 place = f"{flight['trajectory_id']} frame {frame} {name}"
-                valid = logged[f"{name}_valid"][frame]
-                if not 0 <= frame + step < len(logged[name]):
-                    if flow.any() or valid.any():
-                        self.wrong.append(f"{place}: there is no such frame, and not all is 0")
-                elif 0 <= other < len(logged[name]):
+                valid, is_there = logged[f"{name}_valid"][frame], 0 <= frame + step < len(logged[name])
+                if not is_there and (flow.any() or valid.any()):
+                    self.wrong.append(f"{place}: there is no such frame, and not all is 0")
+                elif is_there and 0 <= other < len(logged[name]):
                     self.pair(place, flight, logged, (frame, other), spoiled(flow, self.plant if self.plant != "frame" else None), valid)
 
     def pair(self, place, flight, logged, pair, flow, valid):
@@ -166,24 +157,16 @@ class Judge:
         self.counts["people seen"] += people.sum()
 
 
-def main():
-    options = argparse.ArgumentParser()
-    options.add_argument("folder", type=Path)
-    options.add_argument("--least-pixels", type=int, default=10_000)
-    options.add_argument("--plant", choices=["scale", "sign", "swap", "frame"])
-    given = options.parse_args()
-    judge = Judge(given.folder, given.plant)
-    for flight in judge.flights:
-        require(not flight["camera_readout_s"], "it has a rolling shutter, whose rows the tables do not place")
-        judge.flight(flight)
-    counts = judge.counts
-    print(", ".join(f"{name} {count}" for name, count in counts.items()), "| worst beyond the depth's step, px:",
-          {kind: round(error, 4) for kind, error in judge.worst.items()})  # fmt: skip
-    if counts["standing"] < given.least_pixels:
-        judge.wrong.append(f"only {counts['standing']} pixels were compared")
-    if counts["people seen"] and counts["landed"] < 0.85 * counts["people seen"]:
-        judge.wrong.append(f"{counts['landed']} of {counts['people seen']} ways of people end on the same person")
-    end_with(judge.wrong)
-
-
-main()
+given = command_line("folder", least_pixels=10_000, plant=str)
+require(given.plant in (None, "scale", "sign", "swap", "frame"), f"--plant `{given.plant}` is none of scale, sign, swap and frame")
+judge = Judge(given.folder, given.plant)
+for flight in judge.flights.values():
+    require(not flight["camera_readout_s"], "it has a rolling shutter, whose rows the tables do not place")
+    judge.flight(flight)
+counts, worst = judge.counts, {kind: round(error, 4) for kind, error in judge.worst.items()}
+print(", ".join(f"{name} {count}" for name, count in counts.items()), "| worst beyond the depth's step, px:", worst)
+if counts["standing"] < given.least_pixels:
+    judge.wrong.append(f"only {counts['standing']} pixels were compared")
+if counts["people seen"] and counts["landed"] < 0.85 * counts["people seen"]:
+    judge.wrong.append(f"{counts['landed']} of {counts['people seen']} ways of people end on the same person")
+end_with(judge.wrong)

@@ -1,10 +1,9 @@
 """A filter on the sensors of motion of a dataset: strapdown integration of the inertial unit, aided by satellite receiver and barometer, with an
-error state of 15 (place, velocity, attitude, both biases). For the last OUTAGE_S seconds of a flight the receiver is taken away. The place
-must stay within BOUND_M there. Axes, signs and time stamps are held by that: everything is computed here anew, right-handed, without a line
-of cosfly, and the truth is the pose of the frames.
+error state of 15 (place, velocity, attitude, both biases). For the last OUTAGE_S seconds of a flight the receiver is taken away. The place must
+stay within BOUND_M there. Axes, signs and time stamps are held by that: everything is computed here anew, right-handed, without a line of cosfly,
+and the truth is the pose of the frames.
 
-python check_inertial.py DATASET
-"""
+Usage: `check_inertial.py DATASET`."""
 
 import sys
 from pathlib import Path
@@ -16,14 +15,13 @@ from scipy.spatial.transform import Rotation
 OUTAGE_S, AIDED_S, BOUND_M, BOUND_OF_AIDED_M = 60.0, 30.0, 100.0, 15.0
 GRAVITY = np.array([0, 0, -9.81])
 MIRROR = np.array([1.0, -1, 1])
+PLACE, VELOCITY = ["east_m", "north_m", "up_m"], ["velocity_east_mps", "velocity_north_mps", "velocity_up_mps"]
 # Densities of noise and of the walks that the biases are taken for, deviations at the beginning: gyroscope, accelerometer.
 NOISE, WALK, FIRST = np.array([1.92e-4, 1.83e-3]), np.array([6e-6, 2e-4]), np.array([9e-4, 2e-2])
 
-dataset = Path(sys.argv[1])
-
 
 def table(name):
-    frame = parquet.read_table(dataset / "data" / name).to_pandas()
+    frame = parquet.read_table(Path(sys.argv[1]) / "data" / name).to_pandas()
     return {flight: rows.sort_values(["frame", "row"] if "row" in rows else "frame") for flight, rows in frame.groupby("trajectory_id")}
 
 
@@ -39,8 +37,7 @@ class Filter:
     """Place, velocity and attitude in `map`: x east, y north, z up."""
 
     def __init__(self, fix, force, field):
-        self.place = fix[["east_m", "north_m", "up_m"]].to_numpy(float)
-        self.velocity = fix[["velocity_east_mps", "velocity_north_mps", "velocity_up_mps"]].to_numpy(float)
+        self.place, self.velocity = fix[PLACE].to_numpy(float), fix[VELOCITY].to_numpy(float)
         # Level by the force, which is up where nothing accelerates; north by the magnetic field.
         up = force / np.linalg.norm(force)
         east = np.cross(field, up)
@@ -92,8 +89,7 @@ def errors(flight, unit, receiver, barometer, magnetometer, frames):
     heights = list(zip(barometer.time_s, barometer.altitude_m))[1:]
     dt_s = times[-1] / (len(frames) - 1)
     places = frames[["drone_x_m", "drone_y_m", "drone_z_m"]].to_numpy() * MIRROR
-    seen = np.zeros((6, 15))
-    seen[:6, :6] = np.eye(6)
+    seen = np.eye(6, 15)
     found, felt, due = [], np.zeros(3), 0
     for index in range(1, len(times)):
         mean = 0.5 * (rates[index - 1] + rates[index]), 0.5 * (force[index - 1] + force[index])
@@ -103,10 +99,9 @@ def errors(flight, unit, receiver, barometer, magnetometer, frames):
             felt = np.zeros(3)
             while fixes and fixes[0].time_s <= times[index] + 1e-6:
                 fix = fixes.pop(0)
-                place = fix[["east_m", "north_m", "up_m"]].to_numpy(float) - run.place
-                moving = fix[["velocity_east_mps", "velocity_north_mps", "velocity_up_mps"]].to_numpy(float) - run.velocity
-                wide = [fix.horizontal_dilution, fix.horizontal_dilution, fix.vertical_dilution]
-                run.correct(seen, np.concatenate([place, moving]), np.concatenate([np.multiply(8.0, wide), np.multiply(0.06, wide)]))
+                away = fix[PLACE + VELOCITY].to_numpy(float) - np.concatenate([run.place, run.velocity])
+                wide = np.array([fix.horizontal_dilution, fix.horizontal_dilution, fix.vertical_dilution])
+                run.correct(seen, away, np.concatenate([8.0 * wide, 0.06 * wide]))
             while heights and heights[0][0] <= times[index] + 1e-6:
                 run.correct(seen[2:3], np.array([heights.pop(0)[1] - run.place[2]]), [1.5])
         while due < len(places) and due * dt_s <= times[index] + 1e-6:
@@ -115,8 +110,7 @@ def errors(flight, unit, receiver, barometer, magnetometer, frames):
     return np.array(found), ends_s
 
 
-names = ["inertial_unit", "satellite_receiver", "barometer", "magnetometer", "frames"]
-tables = [table(name) for name in names]
+tables = [table(name) for name in ("inertial_unit", "satellite_receiver", "barometer", "magnetometer", "frames")]
 checked = 0
 for flight in sorted(tables[0]):
     rows = [of_flight[flight] for of_flight in tables]
