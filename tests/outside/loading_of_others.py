@@ -1,8 +1,7 @@
 """Other people's loaders on the same small frames, each with the files that it reads fastest; used by `loading_speed.py`.
 
-Each function writes the windows (5 frames, RGB uint8, depth float16) in its library's format and returns an endless
-iterator of windows in random order, in this process: no worker helps.
-"""
+Each function writes the windows (5 frames, RGB uint8, depth float16) in its library's format and returns an endless iterator of windows in random
+order, in this process: no worker helps."""
 
 import itertools
 import logging

@@ -1,20 +1,14 @@
 #!/usr/bin/env python3
 """Frames per second of CPU time of random windows (5 frames, RGB and depth, 224 x 126) from a dataset, on one core.
 
-    python tests/outside/loading_speed.py out/carla_town [--windows 20] [--trajectories 8]
+Usage: `loading_speed.py out/carla_town [--windows 20] [--trajectories 8]`. Compared are the package `cosfly` (logs, and a training pack) and the
+pure-Python way: the `mcap` package, Pillow, numpy. Pillow's scaled decoding (`draft`) is libjpeg-turbo's. Needs cosfly, mcap, mcap-protobuf-support,
+numpy, pillow, pyarrow. Beside the pack stand the loaders of LeRobot, webdataset and litdata, where they are installed, on the same frames at the same
+size (`loading_of_others.py`), of the first trajectories only: they take long to write. Each way must give windows with the same shapes; the process
+has one thread."""
 
-Compared are the package `cosfly` (logs, and a training pack) and the pure-Python way: the `mcap` package, Pillow, numpy.
-Pillow's scaled decoding (`draft`) is libjpeg-turbo's. Needs cosfly, mcap, mcap-protobuf-support, numpy, pillow, pyarrow.
-
-Beside the pack stand the loaders of LeRobot, webdataset and litdata, where they are installed, on the same frames at the
-same size (`loading_of_others.py`), of the first trajectories only: they take long to write. Each way must give windows
-with the same shapes; the process has one thread.
-"""
-
-import argparse
 import io
 import os
-import shutil
 import tempfile
 import time
 from pathlib import Path
@@ -30,6 +24,7 @@ for name in ("OMP_NUM_THREADS", "MKL_NUM_THREADS", "RAYON_NUM_THREADS"):
 
 import cosfly
 import loading_of_others
+from shared import command_line
 
 SIZE = (224, 126)
 
@@ -48,11 +43,7 @@ def measure(name, read, windows):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("dataset", type=Path)
-    parser.add_argument("--windows", type=int, default=20)
-    parser.add_argument("--trajectories", type=int, default=8)
-    options = parser.parse_args()
+    options = command_line("dataset", windows=20, trajectories=8)
     rows = {row["trajectory_id"]: row for row in pq.read_table(options.dataset / "data/trajectories").to_pylist()}
     windows = cosfly.Dataset(options.dataset, size=SIZE).windows()
     numbers = np.random.default_rng(7).integers(0, len(windows), options.windows)
@@ -84,10 +75,9 @@ def main():
     measure("mcap, Pillow, numpy", plain(False), places)
     measure("mcap, Pillow with scaled decoding, numpy", plain(True), places)
     measure("cosfly.Dataset, from the logs", lambda number, *_: windows[number], places)
-    colours = cosfly.Dataset(options.dataset, size=SIZE, channels=("rgb",)).windows()
-    measure("  rgb alone", lambda number, *_: colours[number], places)
-    depths = cosfly.Dataset(options.dataset, size=SIZE, channels=("depth",)).windows()
-    measure("  depth alone", lambda number, *_: depths[number], places)
+    for channel in ("rgb", "depth"):
+        alone = cosfly.Dataset(options.dataset, size=SIZE, channels=(channel,)).windows()
+        measure(f"  {channel} alone", lambda number, *_: alone[number], places)
     files = [(windows._reader.rgb_file(windows._number[name], start),) for _, name, start in places]
 
     def turbo(file):
@@ -98,25 +88,21 @@ def main():
     one = lambda decode: [1e3 * seconds_of(decode, files) / len(files) for _ in range(3)][-1]
     ours, theirs = one(lambda file: cosfly.decode_rgb(file, (320, 180))), one(turbo)
     print(f"a JPEG file to a quarter of its size: {ours:.2f} ms, libjpeg-turbo {theirs:.2f} ms, ratio {ours / theirs:.2f}")
-    scratch = Path(tempfile.mkdtemp())
-    try:
+    with tempfile.TemporaryDirectory() as scratch:
+        scratch = Path(scratch)
         cosfly.pack(options.dataset, scratch / "pack", size=SIZE, progress=False)
         packed = cosfly.Pack(scratch / "pack", options.dataset).windows()
-        many = [(int(number),) for number in np.random.default_rng(8).integers(0, len(windows), 20 * options.windows)]
-        measure("cosfly.Pack", lambda number: packed[number], many)
+        many = lambda: [(int(number),) for number in np.random.default_rng(8).integers(0, len(packed), 20 * options.windows)]
+        measure("cosfly.Pack", lambda number: packed[number], many())
         few = packed.trajectory_ids[: options.trajectories]
         packed = cosfly.Pack(scratch / "pack", options.dataset, trajectories=few).windows()
         frames = cosfly.Dataset(options.dataset, size=SIZE, trajectories=few)
         print(f"on {len(packed)} windows of {len(few)} trajectories:")
-        many = [(int(number),) for number in np.random.default_rng(8).integers(0, len(packed), 20 * options.windows)]
-        measure("cosfly.Pack", lambda number: packed[number], many)
+        measure("cosfly.Pack", lambda number: packed[number], many())
         for name, function in loading_of_others.all_of().items():
             windows = function(packed, frames, scratch / name.split()[0])
-            measure(name, lambda *_: next(windows), many)
-        measure("cosfly.Pack, again", lambda number: packed[number], many)
-    finally:
-        shutil.rmtree(scratch)
-
+            measure(name, lambda *_: next(windows), many())
+        measure("cosfly.Pack, again", lambda number: packed[number], many())
 
 
 main()
