@@ -3,18 +3,17 @@
 
 import os
 import re
-import sys
 import tarfile
 import zipfile
 from pathlib import Path
 
-folder = Path(sys.argv[1])
-[wheel], [source] = folder.glob("*.whl"), folder.glob("*.tar.gz")
+from shared import command_line
+
+given = command_line("folder", most_mb=1000.0)
+[wheel], [source] = given.folder.glob("*.whl"), given.folder.glob("*.tar.gz")
 
 assert re.fullmatch(r"cosfly-[\d.]+-cp310-abi3-(manylinux|macosx|win).*\.whl", wheel.name), wheel.name
-if "--most-mb" in sys.argv:
-    most = float(sys.argv[sys.argv.index("--most-mb") + 1])
-    assert wheel.stat().st_size <= most * 1e6, f"{wheel.stat().st_size / 1e6:.1f} MB"
+assert wheel.stat().st_size <= given.most_mb * 1e6, f"{wheel.stat().st_size / 1e6:.1f} MB"
 with zipfile.ZipFile(wheel) as files:
     names = set(files.namelist())
     metadata = files.read(next(name for name in names if name.endswith("METADATA"))).decode()

@@ -128,21 +128,17 @@ def claims(text, picture):
     if hidden:
         return
     way, at = picture.way(), picture.across(row)
-    yield from ((name, way is not None and test(way)) for words, name, test in [
-        (("away from the camera", "背对镜头"), "away", lambda it: abs(it) < 31),
-        (("towards the camera", "迎着镜头"), "towards", lambda it: abs(it) > 149),
-        (("walking to the left", "左侧走去"), "to the left", lambda it: -121 < it < -59),
-        (("walking to the right", "右侧走去"), "to the right", lambda it: 59 < it < 121),
-    ] if has(*words))
-    if has("standing still", "站着不动"):
-        yield "stands", way is None
-    yield from ((name, test(at)) for words, name, test in [
-        (("on the left of", "位于画面左"), "on the left", lambda it: it < 0.3),
-        (("in the middle of", "画面中央"), "in the middle", lambda it: 0.4 <= it <= 0.6),
-        (("on the right of", "位于画面右"), "on the right", lambda it: it > 0.7),
-    ] if has(*words))
-    if has("only person", "唯一") or "独自" in text:
-        yield "alone", not people
+    yield from ((name, is_so) for english, chinese, name, is_so in [
+        ("away from the camera", "背对镜头", "away", way is not None and abs(way) < 31),
+        ("towards the camera", "迎着镜头", "towards", way is not None and abs(way) > 149),
+        ("walking to the left", "左侧走去", "to the left", way is not None and -121 < way < -59),
+        ("walking to the right", "右侧走去", "to the right", way is not None and 59 < way < 121),
+        ("standing still", "站着不动", "stands", way is None),
+        ("on the left of", "位于画面左", "on the left", at < 0.3),
+        ("in the middle of", "画面中央", "in the middle", 0.4 <= at <= 0.6),
+        ("on the right of", "位于画面右", "on the right", at > 0.7),
+        ("only person", "唯一" if "唯一" in text else "独自", "alone", not people),
+    ] if has(english, chinese))
     outermost = re.search(r"(最左|最右)" if zh else r"(leftmost|rightmost)", text)
     if outermost:
         sign = 1 if outermost[1] in ("leftmost", "最左") else -1
