@@ -10,6 +10,10 @@ from shared import chromium_of, command_line, end_with, faults_of_page, watch
 
 WIDTHS = (1280, 400)
 SCHEMES = ("light", "dark")
+PARTS = {  # what the page has, and at least how often
+    "landmarks": ("header, nav, main, footer", 4), "sections": ("main > section", 8), "maps and charts": ("svg[role=img][aria-label]", 10),
+    "pictures": ("img[alt]", 2), "tiles of the statistics table": (".tile", 8), "planners": ("#planners .wide tbody >> nth=0 >> tr", 5),
+}
 
 arguments = command_line("dataset", screenshots=Path)
 page_file = (arguments.dataset / "report" / "index.html").resolve()
@@ -19,16 +23,8 @@ problems = []
 
 def contents(page):
     """What must be there at all."""
-    counts = {
-        "landmarks": page.locator("header, nav, main, footer").count(),
-        "sections": page.locator("main > section").count(),
-        "maps and charts": page.locator("svg[role=img][aria-label]").count(),
-        "pictures": page.locator("img[alt]").count(),
-        "tiles of the statistics table": page.locator(".tile").count(),
-        "planners": page.locator("#planners .wide tbody").first.locator("tr").count(),
-    }
-    least = {"landmarks": 4, "sections": 8, "maps and charts": 10, "pictures": 2, "tiles of the statistics table": 8, "planners": 5}
-    problems.extend(f"{name}: {counts[name]}; at least {least[name]}" for name in least if counts[name] < least[name])
+    counts = {name: page.locator(selector).count() for name, (selector, _) in PARTS.items()}
+    problems.extend(f"{name}: {counts[name]}; at least {least}" for name, (_, least) in PARTS.items() if counts[name] < least)
     missing = page.evaluate("[...document.querySelectorAll('nav a')].filter(it => !document.querySelector(it.hash)).length")
     if missing:
         problems.append(f"{missing} links of the contents lead nowhere")
