@@ -1,38 +1,19 @@
 """Failures that `cosfly hunt` finds, beside random sampling with as many flights, on suites and policies that chose nothing.
 
-Usage: check_hunt.py COSFLY SUITES_FOLDER WORK_FOLDER [--budget 40] [--pool 1600] [--seeds 1 2 3]
-Random sampling flies `--drawn` candidates of a pool of another seed, so that its share of failures is known well. A failure of a hunt is a
-walk: no walk counts twice. Prints the table of the book's page "Hunting for failures". The intervals (95 %) come from resampled seeds of
-hunts and resampled random flights.
-"""
-
-import argparse
-import pathlib
+Usage: `check_hunt.py COSFLY SUITES_FOLDER WORK_FOLDER [--budget 40] [--pool 1600] [--seeds 1 2 3] [--drawn 200] [--policies POLICY ...]` (of those
+below; all where left out). Random sampling flies `--drawn` candidates of a pool of another seed, so that its share of failures is known well. A
+failure of a hunt is a walk: no walk counts twice. Prints the table of the book's page "Hunting for failures". The intervals (95 %) come from
+resampled seeds of hunts and resampled random flights."""
 
 import numpy as np
-from shared import json_of
+from shared import command_line, json_of
 
-parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-parser.add_argument("cosfly", type=pathlib.Path)
-parser.add_argument("suites", type=pathlib.Path)
-parser.add_argument("work", type=pathlib.Path)
-parser.add_argument("--budget", type=int, default=40)
-parser.add_argument("--pool", type=int, default=1600)
-parser.add_argument("--drawn", type=int, default=200)
-parser.add_argument("--seeds", nargs="+", type=int, default=[1, 2, 3])
-parser.add_argument("--policies", nargs="+", help="of those below; all where left out")
-given = parser.parse_args()
+given = command_line("cosfly suites work", budget=40, pool=1600, drawn=200, seeds=[1, 2, 3], policies=[str])
 
 CASES = [
-    ("trees", "expert:delay_s=0.6"),
-    ("loss", "expert:gain=1.4,delay_s=0.5"),
-    ("hard", "expert:noise_mps=2.5"),
-    ("trees", "causal"),
-    ("loss", "causal"),
-    ("hard", "causal"),
-    ("street", "expert:delay_s=0.8"),
-    ("street", "expert:noise_mps=3,gain=0.9"),
-    ("vehicles", "follow:gain=0.5,delay_s=0.3,noise_mps=1"),
+    ("trees", "expert:delay_s=0.6"), ("loss", "expert:gain=1.4,delay_s=0.5"), ("hard", "expert:noise_mps=2.5"),
+    ("trees", "causal"), ("loss", "causal"), ("hard", "causal"), ("street", "expert:delay_s=0.8"),
+    ("street", "expert:noise_mps=3,gain=0.9"), ("vehicles", "follow:gain=0.5,delay_s=0.3,noise_mps=1"),
 ]
 store = ["--store", given.work.resolve() / "store"]
 stream = np.random.default_rng(1)

@@ -1,29 +1,20 @@
 """What open-loop errors of a policy tell of its closed-loop score: R2 and rank correlation, on suites that chose nothing.
 
-Usage: open_loop.py COSFLY SUITES_FOLDER WORK_FOLDER [--choose street] [--test unseen trees] [--shares 0.9 0.5]
-Each policy answers in states of flights that the expert flies, but for single frames (half a second) that the policy flies itself:
-`cosfly dagger` with these shares of the expert. The error is that of its action from the expert's in the same state. A *lasting* error is
-the length of the mean error vector of a flight, averaged over flights: errors that cancel do not count, errors that add up do. The metric,
-the share and the line from it to `tracking_rate` are chosen on the suites of --choose; R2 and Spearman's correlation are of each suite of --test.
-"""
+Usage: `open_loop.py COSFLY SUITES_FOLDER WORK_FOLDER [--choose street] [--test unseen trees] [--shares 0.9 0.5] [--every N]`. Each policy answers in
+states of flights that the expert flies, but for single frames (half a second) that the policy flies itself: `cosfly dagger` with these shares of the
+expert. The error is that of its action from the expert's in the same state. A *lasting* error is the length of the mean error vector of a flight,
+averaged over flights: errors that cancel do not count, errors that add up do. The metric, the share and the line from it to `tracking_rate` are
+chosen on the suites of --choose; R2 and Spearman's correlation are of each suite of --test. Of the policies, each whose number --every divides is
+taken."""
 
-import argparse
 import json
-import pathlib
 
 import numpy as np
 from scipy.stats import spearmanr
+from shared import command_line, json_lines
 from shared import run as run_program
 
-parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-parser.add_argument("cosfly", type=pathlib.Path)
-parser.add_argument("suites", type=pathlib.Path)
-parser.add_argument("work", type=pathlib.Path)
-parser.add_argument("--choose", nargs="+", default=["street"])
-parser.add_argument("--test", nargs="+", default=["unseen"])
-parser.add_argument("--every", type=int, default=1, help="take each policy whose number it divides")
-parser.add_argument("--shares", nargs="+", type=float, default=[0.9, 0.5])
-given = parser.parse_args()
+given = command_line("cosfly suites work", choose=["street"], test=["unseen"], every=1, shares=[0.9, 0.5])
 work = given.work.resolve()
 
 CHANGES = ["", "gain=0.5", "gain=0.75", "gain=1.5", "delay_s=0.3", "delay_s=0.8", "noise_mps=1", "noise_mps=4", "gain=0.5,delay_s=0.5"]
@@ -49,8 +40,7 @@ def errors(suite, policy, share):
     run("dagger", given.suites / f"{suite}.toml", "--policy", policy, "--expert-share", share, "--round", "r", "--out", out)
     flights = []
     for path in sorted((out / "rounds" / "r").glob("*.jsonl")):
-        rows = [json.loads(line) for line in path.read_text().splitlines()]
-        own = [np.subtract(row["action"], row["expert_action"]) for row in rows if not row["by_expert"] and row["expert_action"]]
+        own = [np.subtract(row["action"], row["expert_action"]) for row in json_lines(path) if not row["by_expert"] and row["expert_action"]]
         if own:
             flights.append(np.array(own))
     return flights
@@ -63,15 +53,12 @@ def metrics(flights):
     lasting = np.mean([np.linalg.norm(flight[:, :3].mean(axis=0)) for flight in flights])
     lasting_turn = np.mean([np.linalg.norm(flight[:, 3:].mean(axis=0)) for flight in flights])
     singles = {
-        "mean error of the velocity": apart.mean(),
-        "median error of the velocity": np.median(apart),
+        "mean error of the velocity": apart.mean(), "median error of the velocity": np.median(apart),
         "share of velocities off by 2 m/s": (apart > 2).mean(),
-        "mean error of the turn": turn.mean(),
-        "median error of the turn": np.median(turn),
+        "mean error of the turn": turn.mean(), "median error of the turn": np.median(turn),
         "share of turns off by 10 degrees/s": (turn > 10).mean(),
         "velocity + turn / 10": (apart + turn / 10).mean(),
-        "lasting error of the velocity": lasting,
-        "lasting error of the turn": lasting_turn,
+        "lasting error of the velocity": lasting, "lasting error of the turn": lasting_turn,
     }
     near = [lasting / (1 + lasting), lasting_turn / (10 + lasting_turn)]  # a half at 1 m/s and at 10 degrees/s
     columns = {name: [np.log(value + 1e-3)] for name, value in singles.items()}

@@ -1,19 +1,16 @@
 """How the smaller tiers of a benchmark rank policies against the largest: variations of the baselines, Spearman's rank correlation.
 
-Usage: rank_tiers.py COSFLY BENCHMARK WORK_FOLDER [--causal]
-Flies the largest tier once for each policy; an episode has the same row in every tier, so the smaller ones are parts of it.
-Prints the table of the book's page "A benchmark in tiers". With --causal, variations of the planner are flown, too (slow).
-"""
+Usage: `rank_tiers.py COSFLY BENCHMARK WORK_FOLDER [--causal]`. Flies the largest tier once for each policy; an episode has the same row in every
+tier, so the smaller ones are parts of it. Prints the table of the book's page "A benchmark in tiers". With --causal, variations of the planner are
+flown, too (slow)."""
 
-import json
-import pathlib
-import sys
 import time
 
 from scipy.stats import spearmanr
-from shared import run
+from shared import command_line, json_lines, run
 
-cosfly, benchmark, work = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
+given = command_line("cosfly benchmark work", causal=False)
+work = given.work.resolve()
 work.mkdir(parents=True, exist_ok=True)
 TIERS = ["mini", "standard", "full"]
 
@@ -21,12 +18,12 @@ CHANGES = ["", "gain=0.25", "gain=0.5", "gain=0.75", "gain=1.5", "gain=2", "dela
 CHANGES += ["noise_mps=1", "noise_mps=3", "noise_mps=6", "gain=0.5,delay_s=0.5", "gain=1.5,delay_s=0.5,noise_mps=1"]
 policies = [f"{name}:{change}".rstrip(":") for name in ("follow", "expert") for change in CHANGES]
 policies += ["hold", "random", "constant-velocity", "constant-velocity:gain=0.5", "constant-velocity:gain=2", "random:gain=0.3"]
-if "--causal" in sys.argv:
+if given.causal:
     policies += ["causal", "causal:delay_s=0.6", "causal:noise_mps=3", "causal:gain=0.5"]
 
 
 def fly(tier, policies):
-    command = [cosfly, "fly", benchmark, "--tier", tier, "--clips", "0", "--logs", "none", "--quiet", "--json"]
+    command = [given.cosfly.resolve(), "fly", given.benchmark, "--tier", tier, "--clips", "0", "--logs", "none", "--quiet", "--json"]
     command += ["--store", work / "store", "--out", work / tier]
     begun = time.monotonic()
     run(*command, *(part for policy in policies for part in ("--policy", policy)))
@@ -34,8 +31,7 @@ def fly(tier, policies):
 
 
 def rates(folder):
-    rows = [json.loads(line) for line in (folder / "episodes.jsonl").read_text().splitlines()]
-    return {row["episode"]: row["score"]["tracked_steps"] / row["score"]["planned_steps"] for row in rows}
+    return {row["episode"]: row["score"]["tracked_steps"] / row["score"]["planned_steps"] for row in json_lines(folder / "episodes.jsonl")}
 
 
 made = fly("full", ["hold"])
