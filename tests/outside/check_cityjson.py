@@ -7,6 +7,7 @@ roofs that reach over it one of at least 0.97, and its lowest and highest points
 
 import json
 import sys
+from pathlib import Path
 
 import numpy as np
 from shapely import STRtree, make_valid, union_all
@@ -42,8 +43,7 @@ def vertical_share(rings, points):
 
 class Source:
     def __init__(self, path):
-        with open(path, encoding="utf-8") as file:
-            self.file = json.load(file)
+        self.file = json.loads(Path(path).read_text(encoding="utf-8"))
         transform = self.file.get("transform", {"scale": [1, 1, 1], "translate": [0, 0, 0]})
         self.points = np.array(self.file["vertices"], float) * transform["scale"] + transform["translate"]
 

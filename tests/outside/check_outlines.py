@@ -12,6 +12,7 @@ import sys
 import tempfile
 import xml.etree.ElementTree as ET
 
+import numpy as np
 from check_cityjson import things_of
 from shapely import STRtree, make_valid, union_all
 from shapely.geometry import Polygon
@@ -24,11 +25,9 @@ def numbers(element, *names):
 
 def cubic(pieces, s):
     """The value of piecewise cubics at a distance; 0 without any."""
-    before = [one for one in pieces if one[0] <= s + 1e-9] or pieces[:1]
-    if not before:
-        return 0.0
-    start, a, b, c, d = before[-1]
-    return a + (s - start) * (b + (s - start) * (c + (s - start) * d))
+    before = [one for one in pieces if one[0] <= s + 1e-9] or pieces[:1] or [[0.0] * 5]
+    start, *parts = before[-1]
+    return float(np.polyval(parts[::-1], s - start))
 
 
 class Road:
@@ -50,9 +49,8 @@ class Road:
         way = s - start
         if shape.tag == "paramPoly3":
             p = way / length if shape.get("pRange", "normalized") == "normalized" else way
-            au, bu, cu, du, av, bv, cv, dv = numbers(shape, "aU", "bU", "cU", "dU", "aV", "bV", "cV", "dV")
-            u, v = au + p * (bu + p * (cu + p * du)), av + p * (bv + p * (cv + p * dv))
-            turn = math.atan2(bv + p * (2 * cv + 3 * p * dv), bu + p * (2 * cu + 3 * p * du))
+            u, v = (np.poly1d(numbers(shape, *(f"{part}{axis}" for part in "dcba"))) for axis in "UV")
+            u, v, turn = u(p), v(p), math.atan2(v.deriv()(p), u.deriv()(p))
             cos, sin = math.cos(heading), math.sin(heading)
             return x + cos * u - sin * v, y + sin * u + cos * v, heading + turn
         from_bend, to_bend = {
@@ -126,9 +124,9 @@ def compare(truth, found):
     tree = STRtree([plan for plan, *_ in found])
     overlaps, feet, tops = [], [], []
     for _, plan, foot, top in truth:
-        share, best = max(((overlap(found[k][0], plan), int(k)) for k in tree.query(plan, "intersects")), default=(0.0, -1))
+        share, best = max(((overlap(found[k][0], plan), k) for k in tree.query(plan, "intersects")), default=(0.0, None))
         overlaps.append(share)
-        if best >= 0:
+        if best is not None:
             feet.append(found[best][1] - foot)
             tops.append(found[best][2] - top)
     return overlaps, feet, tops
