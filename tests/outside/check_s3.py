@@ -2,7 +2,6 @@
 """check_s3.py COSFLY ONE-WINNER RECIPE FOLDER: a store in a bucket of a server that speaks S3 (the Python package `moto`): the bytes of a local run,
 on one machine and on two with HyperQueue; one winner of many writers; servers that refuse, hang or lie give clear errors."""
 
-import hashlib
 import http.server
 import json
 import os
@@ -14,6 +13,8 @@ import time
 import urllib.error
 import urllib.request
 from pathlib import Path
+
+from shared import bytes_of, run
 
 cosfly, race, recipe, folder = (Path(argument).absolute() for argument in sys.argv[1:5])
 folder.mkdir(parents=True, exist_ok=True)
@@ -57,8 +58,7 @@ def call(*arguments, cache="cache", code=0, **more):
 
 
 def tree(out):
-    files = sorted(path for path in (folder / out).rglob("*") if path.is_file())
-    return {str(path.relative_to(folder / out)): hashlib.sha256(path.read_bytes()).hexdigest() for path in files}
+    return bytes_of(folder / out)
 
 
 class Fault(http.server.BaseHTTPRequestHandler):
@@ -68,20 +68,18 @@ class Fault(http.server.BaseHTTPRequestHandler):
 
     def handle_one(self):
         body = self.rfile.read(int(self.headers.get("Content-Length") or 0))
+        (status, content), headers = Fault.answer, {}
         if Fault.good > 0:
             Fault.good -= 1
-            headers = {"Content-type": "application/octet-stream", **self.headers}
-            request = urllib.request.Request(SERVER + self.path, data=body or None, headers=headers, method=self.command)
+            request = {"data": body or None, "headers": {"Content-type": "application/octet-stream", **self.headers}, "method": self.command}
             try:
-                with urllib.request.urlopen(request) as answer:
-                    status, headers, content = answer.status, answer.headers, answer.read()
+                answer = urllib.request.urlopen(urllib.request.Request(SERVER + self.path, **request))
             except urllib.error.HTTPError as error:
-                status, headers, content = error.code, error.headers, error.read()
-        else:
-            status, content = Fault.answer
-            headers = {}
-            if status == 0:  # hangs
-                time.sleep(3600)
+                answer = error
+            with answer:
+                status, headers, content = answer.status, answer.headers, answer.read()
+        elif status == 0:
+            time.sleep(3600)  # hangs
         self.send_response(status)
         for name in ("ETag", "Last-Modified", "Content-Type"):
             if headers.get(name):
@@ -131,54 +129,44 @@ def check_faults():
     server.shutdown()
 
 
-def check_one_winner():
-    process = subprocess.run([race, "s3://bucket/race"], env=environment, check=True, capture_output=True, text=True)
-    assert process.stdout.strip() == "1", f"{process.stdout.strip()} winners of 1000 creates"
-
-
-def main():
-    server = start_server()
-    try:
-        call("run", recipe, "--store", "local", "--out", "here")
-        place = "s3://bucket/store"
-        began = time.time()
-        call("run", recipe, "--store", place, "--out", "there")
-        print(f"a run into the bucket: {time.time() - began:.1f} s")
-        assert tree("here") == tree("there"), "the bytes of a local run"
-        began = time.time()
-        summary = json.loads(call("run", recipe, "--store", place, "--out", "elsewhere", "--json", cache="other"))
-        assert all(stage["ran"] == 0 for stage in summary["stages"]), "another machine finds everything"
-        assert tree("here") == tree("elsewhere")
-        print(f"the same from another machine, all found: {time.time() - began:.1f} s")
-        assert "to_run\": 0" in call("plan", recipe, "--store", place, "--json", cache="third")
-        # Commands of any engine, each with a cache of its own.
-        lines = call("run", recipe, "--store", "s3://bucket/emitted", "--on", "emit").splitlines()
-        for line in lines:
-            command = json.loads(line)
-            call(*command["command"][1:], cache=f"leaf-{command['id'] % 3}")
-        call("run", recipe, "--store", "s3://bucket/emitted", "--out", "emitted")
-        assert tree("here") == tree("emitted")
-        # Versions and garbage.
-        call("dataset", "tag", "v1", recipe, "--store", place)
-        assert "v1" in call("dataset", "list", "--store", place, cache="fourth")
-        call("dataset", "checkout", "v1", "--out", "checked-out", "--store", place, cache="fourth")
-        assert tree("here") == tree("checked-out")
-        call("verify", "checked-out")
-        for weight in (7, 8):
-            changed = ["--set", f"stages.expert.weights.visibility={weight}"]
-            call("run", recipe, *changed, "--store", place, "--out", "changed")
-        told = call("gc", "--store", place, "--keep-runs", "1", "--keep-days", "0", "--delete")
-        print(told.strip())
-        assert "removed 0 blobs" not in told, "the run before the last one goes"
-        call("dataset", "checkout", "v1", "--out", "still-there", "--store", place, cache="fifth")
-        assert tree("here") == tree("still-there"), "a named version is kept"
-        check_one_winner()
-        check_faults()
-        refused = call("run", recipe, "--store", "s3://bucket", code=3)
-        assert "remote-place" in refused
-    finally:
-        server.kill()
-    print("a bucket is a store")
-
-
-main()
+server = start_server()
+try:
+    call("run", recipe, "--store", "local", "--out", "here")
+    place = "s3://bucket/store"
+    began = time.time()
+    call("run", recipe, "--store", place, "--out", "there")
+    print(f"a run into the bucket: {time.time() - began:.1f} s")
+    assert tree("here") == tree("there"), "the bytes of a local run"
+    began = time.time()
+    summary = json.loads(call("run", recipe, "--store", place, "--out", "elsewhere", "--json", cache="other"))
+    assert all(stage["ran"] == 0 for stage in summary["stages"]), "another machine finds everything"
+    assert tree("here") == tree("elsewhere")
+    print(f"the same from another machine, all found: {time.time() - began:.1f} s")
+    assert "to_run\": 0" in call("plan", recipe, "--store", place, "--json", cache="third")
+    # Commands of any engine, each with a cache of its own.
+    lines = call("run", recipe, "--store", "s3://bucket/emitted", "--on", "emit").splitlines()
+    for line in lines:
+        command = json.loads(line)
+        call(*command["command"][1:], cache=f"leaf-{command['id'] % 3}")
+    call("run", recipe, "--store", "s3://bucket/emitted", "--out", "emitted")
+    assert tree("here") == tree("emitted")
+    # Versions and garbage.
+    call("dataset", "tag", "v1", recipe, "--store", place)
+    assert "v1" in call("dataset", "list", "--store", place, cache="fourth")
+    call("dataset", "checkout", "v1", "--out", "checked-out", "--store", place, cache="fourth")
+    assert tree("here") == tree("checked-out")
+    call("verify", "checked-out")
+    for weight in (7, 8):
+        call("run", recipe, "--set", f"stages.expert.weights.visibility={weight}", "--store", place, "--out", "changed")
+    told = call("gc", "--store", place, "--keep-runs", "1", "--keep-days", "0", "--delete")
+    print(told.strip())
+    assert "removed 0 blobs" not in told, "the run before the last one goes"
+    call("dataset", "checkout", "v1", "--out", "still-there", "--store", place, cache="fifth")
+    assert tree("here") == tree("still-there"), "a named version is kept"
+    winners = run(race, "s3://bucket/race", env=environment).strip()
+    assert winners == "1", f"{winners} winners of 1000 creates"
+    check_faults()
+    assert "remote-place" in call("run", recipe, "--store", "s3://bucket", code=3)
+finally:
+    server.kill()
+print("a bucket is a store")
