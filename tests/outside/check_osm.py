@@ -152,6 +152,7 @@ class Town:
                 heights += self.height(name, tags, shape, shapes, index, boxes) if not own else []
         for name, tags, shape in parts:
             heights += self.height(name, tags, shape, shapes, index, boxes)
+        # Of nothing it is no number, which is neither above nor below a limit.
         median = lambda values: statistics.median(values) if values else math.nan
         middle = median([value for value, _ in overlaps])
         assert not middle < 0.9, f"{self.name}: median overlap {middle:.3f}, worst {sorted(overlaps)[:5]}"
