@@ -44,10 +44,8 @@ pub fn take_sources(config: &mut RenderConfig) -> Vec<Source> {
         let plain = mesh.clone();
         // Files that the mesh names are found before the mesh is.
         let beside = Arc::new(Mutex::new(vec![]));
-        for (index, file) in mesh.files.iter_mut().enumerate() {
+        for (index, (file, name)) in mesh.files.iter_mut().zip(plain.names_of_files()).enumerate() {
             let beside = Arc::clone(&beside);
-            let name =
-                Path::new(&*file).file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
             let check = Arc::new(move |path: &Path| {
                 beside.lock().unwrap_or_else(PoisonError::into_inner).push(path.to_owned());
                 Ok(())
@@ -89,7 +87,7 @@ fn read_scene_mesh(config: &RenderConfig, files: &[PathBuf], town: &Town) -> Res
     Ok(Some(SceneMesh::new(read, mesh, town)))
 }
 
-/// Reads a mesh, whose pictures and materials lie in the files `beside`, for a world whose reader took `world_origin_m` off its map.
+/// Reads a mesh, whose pictures and materials lie in the files `beside`, those of `config.files` in their order, for a world whose reader took `world_origin_m` off its map.
 ///
 /// # Errors
 /// Files that cannot be read, or are no mesh; numbers that no place has.
@@ -113,11 +111,8 @@ pub fn read_mesh(config: &MeshConfig, path: &Path, beside: &[PathBuf], world_ori
         }
         std::fs::read(path).map_err(unreadable)
     };
-    let named = |path: &PathBuf| {
-        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-        Ok((name, read(path)?))
-    };
-    let beside = beside.iter().map(named).collect::<Result<Vec<NamedFile>>>()?;
+    let named = |(name, path): (String, &PathBuf)| Ok((name, read(path)?));
+    let beside = config.names_of_files().into_iter().zip(beside).map(named).collect::<Result<Vec<NamedFile>>>()?;
     TexturedMesh::read(&read(path)?, &beside, &place).map_err(refused)
 }
 

@@ -1,9 +1,11 @@
 //! Parameters of a mesh that pictures show, and its place in the world.
 
+use super::materials::{name_of, plain};
 use cosfly_frames::{DVec3, real};
 use cosfly_scans::mesh::UpAxis;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::path::Path;
 
 /// A textured mesh in the place of a town's boxes and ground. Left out, axis, unit and place are those of the map's file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -79,6 +81,18 @@ impl MeshConfig {
         }
     }
 
+    /// Names of `files`: those without folders, and for files of one name (in any case) their paths from the mesh's folder, with `/`.
+    pub fn names_of_files(&self) -> Vec<String> {
+        let folder = Path::new(&self.source).parent().unwrap_or(Path::new(""));
+        let names: Vec<&str> = self.files.iter().map(|path| name_of(path)).collect();
+        let is_alone = |name: &str| names.iter().filter(|other| other.eq_ignore_ascii_case(name)).count() == 1;
+        let named = |(path, name): (&String, &&str)| {
+            let inside = Path::new(path).strip_prefix(folder).unwrap_or(Path::new(path));
+            if is_alone(name) { (*name).to_owned() } else { plain(&inside.to_string_lossy()) }
+        };
+        self.files.iter().zip(&names).map(named).collect()
+    }
+
     /// The place in a world whose origin lies at `world_origin_m`: what the town's reader takes off its map's points, world axes.
     ///
     /// # Errors
@@ -144,6 +158,18 @@ mod tests {
         };
         let place = moved.place(DVec3::ZERO).expect("a place");
         assert!(place.in_world(DVec3::new(1.0, 0.0, 3.0)).abs_diff_eq(DVec3::new(100.0, -2.0, 7.0), 1e-9));
+    }
+
+    #[test]
+    fn files_of_one_name_are_told_by_their_folders() {
+        let mut config = MeshConfig::new("../my scan/street.obj");
+        config.files = ["../my scan/street.mtl", "../my scan/a/wall.png", "../my scan/WALL.png", "x/./wall.png"]
+            .map(str::to_owned)
+            .to_vec();
+        let names = config.names_of_files();
+        assert_eq!(names, ["street.mtl", "a/wall.png", "WALL.png", "x/wall.png"]);
+        // The names of names are the same: recipes are keyed by them.
+        assert_eq!(MeshConfig { files: names.clone(), ..MeshConfig::new("(content)") }.names_of_files(), names);
     }
 
     #[test]

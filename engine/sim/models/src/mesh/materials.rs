@@ -13,7 +13,7 @@ pub struct NamedMaterial {
     pub name: String,
     /// Linear red, green, blue.
     pub colour: [f32; 3],
-    /// Name of its picture, without folders.
+    /// Path of its picture, as [`plain`] writes it; beside the file of materials where it has no folders.
     pub picture: Option<String>,
     /// Where places lie in the picture.
     pub placing: Placing,
@@ -43,19 +43,62 @@ pub fn name_of(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)
 }
 
-/// Paths of a line `mtllib`: several, or one with blanks.
-pub fn libraries(rest: &str) -> Vec<&str> {
-    let several: Vec<&str> = rest.split_whitespace().collect();
-    let is_one = |path: &&str| path.len() > 4 && path.as_bytes()[path.len() - 4..].eq_ignore_ascii_case(b".mtl");
-    if several.iter().all(is_one) { several } else { vec![rest.trim()] }
+/// A path without quotes, `\` and steps that lead nowhere: `"a\.\b\..\c.png"` is `a/c.png`.
+pub fn plain(path: &str) -> String {
+    let path = path.trim();
+    let path = path.strip_prefix('"').and_then(|it| it.strip_suffix('"')).unwrap_or(path);
+    let mut parts: Vec<&str> = vec![];
+    for part in path.split(['/', '\\']) {
+        match (part, parts.last()) {
+            ("." | "", _) if !parts.is_empty() || part == "." => {}
+            ("..", Some(last)) if !matches!(*last, ".." | "") => drop(parts.pop()),
+            _ => parts.push(part),
+        }
+    }
+    parts.join("/")
 }
 
-/// Files that an OBJ file or a file of materials names, without folders.
+/// A path that the file `of` names, for one who stands where `of` was named; both as [`plain`] writes them.
+pub fn beside(of: &str, path: &str) -> String {
+    let is_whole = path.starts_with('/') || path.contains(':');
+    match of.rsplit_once('/') {
+        Some((folder, _)) if !is_whole => plain(&format!("{folder}/{path}")),
+        _ => path.to_owned(),
+    }
+}
+
+/// Paths of a line `mtllib`: several, or one with blanks.
+pub fn libraries(rest: &str) -> Vec<String> {
+    let several: Vec<&str> = rest.split_whitespace().collect();
+    let is_one = |path: &&str| path.len() > 4 && path.as_bytes()[path.len() - 4..].eq_ignore_ascii_case(b".mtl");
+    if several.iter().all(is_one) { several.into_iter().map(plain).collect() } else { vec![plain(rest)] }
+}
+
+/// The number of the file that `path` means among files with names or paths: the one with its last part, in any case;
+/// of several the one with all of its path, else with most of its end, else of its case.
+///
+/// # Errors
+/// Names of the files that it may mean, where they are none or several.
+pub fn found<'a>(path: &str, files: impl Iterator<Item = &'a str>) -> Result<usize, Vec<&'a str>> {
+    let likeness = |file: &str| {
+        let file = plain(file);
+        let ends = path.rsplit('/').zip(file.rsplit('/'));
+        let alike = ends.take_while(|(a, b)| a.eq_ignore_ascii_case(b)).count();
+        let is_case = name_of(path) == name_of(&file);
+        (alike > 0).then(|| (file.eq_ignore_ascii_case(path), alike, file == path, is_case))
+    };
+    let alike: Vec<_> = files.enumerate().filter_map(|(at, file)| Some((likeness(file)?, at, file))).collect();
+    let Some(most) = alike.iter().map(|it| it.0).max() else { return Err(vec![]) };
+    let best: Vec<_> = alike.into_iter().filter(|it| it.0 == most).collect();
+    if let [(_, at, _)] = best[..] { Ok(at) } else { Err(best.into_iter().map(|it| it.2).collect()) }
+}
+
+/// Files that an OBJ file or a file of materials names, as [`plain`] writes their paths.
 pub fn named_files(bytes: &[u8]) -> Vec<String> {
     let Ok(text) = decoded(bytes) else { return vec![] };
     let names = text.lines().flat_map(|line| match line.trim().split_once([' ', '\t']) {
-        Some(("mtllib", rest)) => libraries(rest).into_iter().map(|path| name_of(path).to_owned()).collect(),
-        Some(("map_Kd", rest)) => vec![name_of(placed(rest).0).to_owned()],
+        Some(("mtllib", rest)) => libraries(rest),
+        Some(("map_Kd", rest)) => vec![plain(placed(rest).0)],
         _ => vec![],
     });
     let mut names: Vec<String> = names.take(MOST_NAMES).collect();
@@ -88,7 +131,7 @@ pub fn read(bytes: &[u8]) -> Result<Vec<NamedMaterial>, MapError> {
             }
             ("map_Kd", Some(last)) => {
                 let (path, placing) = placed(rest);
-                (last.picture, last.placing) = (Some(name_of(path).to_owned()), placing);
+                (last.picture, last.placing) = (Some(plain(path)), placing);
             }
             _ => {}
         }
@@ -132,14 +175,39 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_of_pictures_lose_folders_and_options() {
+    fn names_of_pictures_lose_options() {
         let text = b"# a scan\nKd 0 0 0\nnewmtl wall\nKd 0 0 0\nmap_Kd -s 2 3 1 -o .5 -clamp on C:\\scans\\my wall.png\nnewmtl roof\n\tKd .5 nan 0.2\nd 0.1\n";
         let [wall, roof] = &read(text).expect("materials")[..] else { panic!("two materials") };
-        assert_eq!((wall.name.as_str(), wall.picture.as_deref(), wall.colour), ("wall", Some("my wall.png"), [1.0; 3]));
+        assert_eq!(
+            (wall.name.as_str(), wall.picture.as_deref(), wall.colour),
+            ("wall", Some("C:/scans/my wall.png"), [1.0; 3])
+        );
         assert_eq!(wall.placing, Placing { scale: [2.0, 3.0], shift: [0.5, 0.0], is_clamped: true });
         assert!(roof.is_glass && !wall.is_glass && roof.placing == Placing::default());
         assert_eq!(libraries(" a.mtl B.MTL"), ["a.mtl", "B.MTL"]);
         assert_eq!(libraries("my scan.mtl "), ["my scan.mtl"]);
+        assert_eq!(libraries("\"my scan.mtl\""), ["my scan.mtl"]);
         assert_eq!((roof.name.as_str(), roof.picture.as_deref(), roof.colour), ("roof", None, [0.5, 1.0, 0.2]));
+    }
+
+    #[test]
+    fn a_path_means_the_file_with_most_of_its_end() {
+        for (path, written) in [
+            ("./a/../b\\c d.png", "b/c d.png"),
+            ("../../x", "../../x"),
+            ("\"q.png\"", "q.png"),
+            ("/etc//passwd", "/etc/passwd"),
+        ] {
+            assert_eq!(plain(path), written);
+        }
+        assert_eq!([beside("a/b.mtl", "../c.png"), beside("b.mtl", "c.png")], ["c.png", "c.png"]);
+        assert_eq!([beside("a/b.mtl", "/c.png"), beside("a/b.mtl", "C:/c.png")], ["/c.png", "C:/c.png"]);
+        let files = ["a/wall.png", "b/wall.png", "roof.png", "Door.png", "door.png"];
+        let means = |path: &str| found(path, files.into_iter());
+        assert_eq!([means("a/wall.png"), means("x/b/WALL.PNG")], [Ok(0), Ok(1)]);
+        assert_eq!([means("any/roof.png"), means("door.png"), means("Door.png")], [Ok(2), Ok(4), Ok(3)]);
+        assert_eq!(means("wall.png"), Err(vec!["a/wall.png", "b/wall.png"]));
+        assert_eq!((means("DOOR.png"), means("none.png")), (Err(vec!["Door.png", "door.png"]), Err(vec![])));
+        assert_eq!(found("wall.png", ["wall.png", "a/wall.png"].into_iter()), Ok(0));
     }
 }

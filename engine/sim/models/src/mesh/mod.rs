@@ -14,7 +14,7 @@ mod textured;
 mod used_texels;
 
 pub use config::{MeshConfig, MeshPlace, MeshProblem};
-pub use materials::named_files;
+pub use materials::{beside, name_of, named_files};
 pub use read::NamedFile;
 pub use survey::MeshSurvey;
 pub use texture::MeshTexture;

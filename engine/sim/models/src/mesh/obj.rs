@@ -2,7 +2,7 @@
 
 use super::builder::Builder;
 use super::config::MeshPlace;
-use super::materials::{self, NamedMaterial, Placing, libraries, name_of};
+use super::materials::{self, NamedMaterial, Placing, libraries};
 use super::textured::{MeshMaterial, MeshTriangle, TexturedMesh};
 use cosfly_frames::DVec3;
 use cosfly_scans::gltf::materials::TextureWrap;
@@ -103,7 +103,7 @@ impl Reader<'_> {
                 self.builder.count(1)?;
             }
             "f" => self.face(rest)?,
-            "mtllib" => libraries(rest).into_iter().try_for_each(|path| self.materials_of(path))?,
+            "mtllib" => libraries(rest).iter().try_for_each(|path| self.materials_of(path))?,
             "usemtl" => self.material = self.number_of(rest.trim())?,
             _ => {}
         }
@@ -164,15 +164,20 @@ impl Reader<'_> {
     }
 
     fn file(&self, path: &str) -> Result<&[u8], MapError> {
-        let name = name_of(path);
-        let found = self.beside.iter().find(|(known, _)| known.eq_ignore_ascii_case(name));
-        found.map(|(_, bytes)| bytes.as_slice()).ok_or_else(|| {
-            let shown: String = name.chars().take(60).collect();
-            let error = MapError::new(format!("the mesh names the file `{shown}`, which is not among its `files`"));
-            error.hint(format!(
-                "name it beside the mesh: `files = [\"{shown}\"]`; no file is opened that the recipe does not name"
-            ))
-        })
+        let names = self.beside.iter().map(|(name, _)| name.as_str());
+        let found = materials::found(path, names).map_err(|several| {
+            let shown: String = materials::name_of(path).chars().take(60).collect();
+            if several.is_empty() {
+                let error = MapError::new(format!("the mesh names the file `{shown}`, which is not among its `files`"));
+                return error.hint(format!(
+                    "name it beside the mesh: `files = [\"{shown}\"]`; no file is opened that the recipe does not name"
+                ));
+            }
+            let several = several.join("`, `");
+            let error = MapError::new(format!("the mesh names the file `{shown}`, which may be each of `{several}`"));
+            error.hint("give these files different names, there and in the file that names them")
+        })?;
+        Ok(&self.beside[found].1)
     }
 
     fn materials_of(&mut self, path: &str) -> Result<(), MapError> {
@@ -180,7 +185,10 @@ impl Reader<'_> {
             return Ok(());
         }
         let all = materials::read(self.file(path)?)?;
-        self.known.extend(all.into_iter().map(|material| (material.name.clone(), material)));
+        self.known.extend(all.into_iter().map(|mut material| {
+            material.picture = material.picture.map(|picture| materials::beside(path, &picture));
+            (material.name.clone(), material)
+        }));
         Ok(())
     }
 
@@ -241,6 +249,37 @@ mod tests {
         let look = mesh.look_at(&mesh.triangles[0], [1.0 / 3.0; 3], [[0.0; 2]; 2]);
         assert!((look[0] - 1.0 / 3.0).abs() < 1e-3 && look[1] == 0.0, "{look:?}");
         assert_eq!(mesh.triangles[2].material, 0);
+    }
+
+    #[test]
+    fn pictures_of_one_name_in_several_folders_stay_apart() {
+        let picture = |rgb: [u8; 3]| {
+            let mut picture = vec![];
+            let mut encoder = png::Encoder::new(&mut picture, 1, 1);
+            encoder.set_color(png::ColorType::Rgb);
+            encoder.write_header().and_then(|mut it| it.write_image_data(&rgb)).expect("a picture");
+            picture
+        };
+        let text = "mtllib mats/scan.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 -1\nvt 0 0\n\
+                    usemtl red\nf 1/1 2/1 3/1\nusemtl blue\nf 1/1 2/1 3/1\n";
+        let materials = b"newmtl red\nmap_Kd red\\wall.png\nnewmtl blue\nmap_Kd \"../blue/wall.png\"\n".to_vec();
+        let beside = [
+            ("scan.mtl".to_owned(), materials),
+            ("blue/wall.png".to_owned(), picture([0, 0, 255])),
+            ("mats/red/wall.png".to_owned(), picture([255, 0, 0])),
+        ];
+        let mesh = read(text, &beside).expect("a mesh");
+        let looks: Vec<[f32; 3]> = mesh
+            .triangles
+            .iter()
+            .map(|it| mesh.look_at(it, [1.0 / 3.0; 3], [[0.0; 2]; 2]))
+            .map(|it| [it[0], it[1], it[2]])
+            .collect();
+        assert_eq!(looks, [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);
+        let text = text.replace("mats/scan", "scan");
+        let beside = beside.map(|(name, bytes)| (name.replace("mats/red", "grey"), bytes));
+        let error = read(&text, &beside).expect_err("refused");
+        assert!(error.message.contains("may be each of `blue/wall.png`, `grey/wall.png`"), "{error}");
     }
 
     #[test]

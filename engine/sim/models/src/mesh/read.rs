@@ -10,7 +10,7 @@ use cosfly_town::MapError;
 /// The way out of a damaged file.
 const WAY_OUT: &str = "the file seems to be damaged: export the mesh again";
 
-/// A file that a mesh may name, by its name without folders.
+/// A file that a mesh may name, by its name; by a path of as many folders as tell it from others of its name.
 pub type NamedFile = (String, Vec<u8>);
 
 impl TexturedMesh {

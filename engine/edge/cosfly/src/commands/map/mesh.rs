@@ -2,11 +2,11 @@
 
 use cosfly_diagnose::counted;
 use cosfly_experts::map_files::ReadMap;
-use cosfly_models::mesh::{MeshConfig, MeshSurvey, NamedFile, TexturedMesh, named_files};
+use cosfly_models::mesh::{self, MeshConfig, MeshSurvey, NamedFile, TexturedMesh, name_of, named_files};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Component, Path};
 
 /// Most bytes of all files beside a mesh that are read.
 const MOST_BYTES_BESIDE: u64 = 1 << 30;
@@ -44,24 +44,27 @@ pub fn figures(file: &Path, map: &ReadMap, parameters: &[String]) -> Option<Valu
     })
 }
 
-/// Files in the mesh's own folder that it names, and those that its materials name.
+/// Files in the mesh's own folder, and in folders inside it, that it names, and those that its materials name; where a path
+/// leads out of the folder or to nothing, the file of its name in the folder. Names are paths from there.
 fn beside(file: &Path, bytes: &[u8]) -> Vec<NamedFile> {
     let mut files: Vec<NamedFile> = vec![];
     let mut names = named_files(bytes);
     let (mut seen, mut left) = (BTreeSet::new(), MOST_BYTES_BESIDE);
+    let length_of = |name: &str| {
+        let is_inside = Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
+        let found = std::fs::metadata(file.with_file_name(name)).ok().filter(|it| is_inside && it.is_file())?;
+        Some((name.to_owned(), found.len()))
+    };
     while let Some(name) = names.pop() {
-        if Path::new(&name).components().count() != 1 || !seen.insert(name.clone()) {
+        let Some((name, length)) = length_of(&name).or_else(|| length_of(name_of(&name))) else { continue };
+        if !seen.insert(name.clone()) {
             continue;
         }
-        let path = file.with_file_name(&name);
-        let Some(length) = std::fs::metadata(&path).ok().filter(std::fs::Metadata::is_file).map(|it| it.len()) else {
-            continue;
-        };
         let Some(rest) = left.checked_sub(length) else { continue };
-        let Ok(bytes) = std::fs::read(&path) else { continue };
+        let Ok(bytes) = std::fs::read(file.with_file_name(&name)) else { continue };
         left = rest;
         if Path::new(&name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mtl")) {
-            names.extend(named_files(&bytes));
+            names.extend(named_files(&bytes).iter().map(|picture| mesh::beside(&name, picture)));
         }
         files.push((name, bytes));
     }
@@ -102,4 +105,24 @@ pub fn text(figures: &Value) -> String {
         let _ = write!(text, "\nmesh: in a recipe, `files = {}`", Value::from(files.clone()));
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pictures_in_folders_inside_the_mesh_s_own_are_found() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let inside = |name: &str| folder.path().join("scan").join(name);
+        std::fs::create_dir_all(inside("my maps/a")).expect("folders");
+        for name in ["my maps/scan.mtl", "my maps/a/wall.png", "b.png", "c.png", "../out.png"] {
+            std::fs::write(inside(name), "").expect("a file");
+        }
+        let materials = "map_Kd a\\wall.png\nmap_Kd ..\\b.png\nmap_Kd D:\\x\\c.png\nmap_Kd ../../out.png\n";
+        std::fs::write(inside("my maps/scan.mtl"), materials).expect("a file");
+        let found = beside(&inside("scan.obj"), b"mtllib ./my maps/scan.mtl\n");
+        let names: Vec<&str> = found.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, ["b.png", "c.png", "my maps/a/wall.png", "my maps/scan.mtl"]);
+    }
 }
