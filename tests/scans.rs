@@ -249,6 +249,10 @@ fn finished_flights_are_held_against_the_mesh_and_a_planted_triangle_is_found() 
     let at = frame.pose.position_in_world + flight.town_offset_m;
     let corner = |aside: f64, up: f64| format!("v {} {} {}\n", at.x + 0.5, at.z + up, at.y + aside);
     let wall = [corner(0.0, 0.0), corner(0.1, 0.0), corner(0.0, 0.1), "f 1 2 3\n".to_owned()].concat();
+    // Its materials lie in a folder beside it, and nobody names them.
+    std::fs::create_dir(street.path().join("looks")).expect("writable");
+    std::fs::write(street.path().join("looks/wall.mtl"), "newmtl wall\n").expect("writable");
+    let wall = format!("mtllib looks/wall.mtl\nusemtl wall\n{wall}");
     std::fs::write(street.path().join("wall.obj"), wall).expect("writable");
     let printed = verify(&["--mesh", "wall.obj"]);
     assert_eq!(printed.code, Some(1), "{}", printed.stdout);

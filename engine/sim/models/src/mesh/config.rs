@@ -5,7 +5,6 @@ use cosfly_frames::{DVec3, real};
 use cosfly_scans::mesh::UpAxis;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::path::Path;
 
 /// A textured mesh in the place of a town's boxes and ground. Left out, axis, unit and place are those of the map's file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -83,12 +82,14 @@ impl MeshConfig {
 
     /// Names of `files`: those without folders, and for files of one name (in any case) their paths from the mesh's folder, with `/`.
     pub fn names_of_files(&self) -> Vec<String> {
-        let folder = Path::new(&self.source).parent().unwrap_or(Path::new(""));
+        let source = plain(&self.source);
+        let folder = source.rsplit_once('/').map_or("", |(folder, _)| folder);
         let names: Vec<&str> = self.files.iter().map(|path| name_of(path)).collect();
         let is_alone = |name: &str| names.iter().filter(|other| other.eq_ignore_ascii_case(name)).count() == 1;
         let named = |(path, name): (&String, &&str)| {
-            let inside = Path::new(path).strip_prefix(folder).unwrap_or(Path::new(path));
-            if is_alone(name) { (*name).to_owned() } else { plain(&inside.to_string_lossy()) }
+            let path = plain(path);
+            let inside = path.strip_prefix(folder).and_then(|it| it.strip_prefix('/')).unwrap_or(&path);
+            if is_alone(name) { (*name).to_owned() } else { inside.to_owned() }
         };
         self.files.iter().zip(&names).map(named).collect()
     }

@@ -30,6 +30,7 @@ pub(super) fn read(bytes: &[u8], beside: &[(String, Vec<u8>)], place: &MeshPlace
         known: BTreeMap::new(),
         libraries: BTreeSet::new(),
         pictures: BTreeMap::new(),
+        meant: BTreeMap::new(),
         numbers: BTreeMap::new(),
         material: (0, Placing::default()),
         unknown: BTreeSet::new(),
@@ -75,6 +76,8 @@ struct Reader<'a> {
     libraries: BTreeSet<String>,
     /// Numbers of textures by the names of their files and whether their edges go on.
     pictures: BTreeMap<(String, bool), u32>,
+    /// Paths without a drive or root by the numbers of the files that they mean.
+    meant: BTreeMap<usize, String>,
     /// Numbers of materials by name, and where places lie in their pictures.
     numbers: BTreeMap<String, (u32, Placing)>,
     /// The material of the faces that come now.
@@ -163,7 +166,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn file(&self, path: &str) -> Result<&[u8], MapError> {
+    fn file(&mut self, path: &str) -> Result<&[u8], MapError> {
         let names = self.beside.iter().map(|(name, _)| name.as_str());
         let found = materials::found(path, names).map_err(|several| {
             let shown: String = materials::name_of(path).chars().take(60).collect();
@@ -177,6 +180,15 @@ impl Reader<'_> {
             let error = MapError::new(format!("the mesh names the file `{shown}`, which may be each of `{several}`"));
             error.hint("give these files different names, there and in the file that names them")
         })?;
+        let known = self.meant.entry(found).or_insert_with(|| path.to_owned());
+        let is_whole = |path: &str| path.starts_with('/') || path.contains(':');
+        if !known.eq_ignore_ascii_case(path) && !is_whole(path) && !is_whole(known) {
+            let name = &self.beside[found].0;
+            let error = MapError::new(format!(
+                "the mesh names the files `{known}` and `{path}`, but only one of this name is among its `files`: `{name}`"
+            ));
+            return Err(error.hint("name both beside the mesh: `files = [...]`"));
+        }
         Ok(&self.beside[found].1)
     }
 
@@ -280,6 +292,9 @@ mod tests {
         let beside = beside.map(|(name, bytes)| (name.replace("mats/red", "grey"), bytes));
         let error = read(&text, &beside).expect_err("refused");
         assert!(error.message.contains("may be each of `blue/wall.png`, `grey/wall.png`"), "{error}");
+        let one = beside.map(|(name, bytes)| (name.replace("blue/", ""), bytes));
+        let error = read(&text, &one[..2]).expect_err("refused");
+        assert!(error.message.contains("names the files `red/wall.png` and `../blue/wall.png`"), "{error}");
     }
 
     #[test]

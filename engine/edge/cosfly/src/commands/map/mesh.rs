@@ -40,13 +40,15 @@ pub fn figures(file: &Path, map: &ReadMap, parameters: &[String]) -> Option<Valu
                 "remarks": remarks,
             })
         }
-        Err(error) => json!({ "files": names, "refused": error.message, "hints": error.hints }),
+        Err(error) => {
+            json!({ "files": names, "refused": error.message, "hints": error.hints, "missing": missing(&bytes, &files) })
+        }
     })
 }
 
 /// Files in the mesh's own folder, and in folders inside it, that it names, and those that its materials name; where a path
 /// leads out of the folder or to nothing, the file of its name in the folder. Names are paths from there.
-fn beside(file: &Path, bytes: &[u8]) -> Vec<NamedFile> {
+pub fn beside(file: &Path, bytes: &[u8]) -> Vec<NamedFile> {
     let mut files: Vec<NamedFile> = vec![];
     let mut names = named_files(bytes);
     let (mut seen, mut left) = (BTreeSet::new(), MOST_BYTES_BESIDE);
@@ -72,11 +74,29 @@ fn beside(file: &Path, bytes: &[u8]) -> Vec<NamedFile> {
     files
 }
 
+/// Names of the files that an OBJ file and its materials name and that are not among `files`.
+fn missing(bytes: &[u8], files: &[NamedFile]) -> BTreeSet<String> {
+    let mut all = named_files(bytes);
+    let is_library = |name: &str| Path::new(name).extension().is_some_and(|it| it.eq_ignore_ascii_case("mtl"));
+    all.extend(files.iter().filter(|(name, _)| is_library(name)).flat_map(|(_, bytes)| named_files(bytes)));
+    let is_there = |name: &str| files.iter().any(|(file, _)| name_of(file).eq_ignore_ascii_case(name_of(name)));
+    all.into_iter().filter(|name| !is_there(name)).collect()
+}
+
 /// Figures for people.
 pub fn text(figures: &Value) -> String {
     let mut text = String::new();
     if let Some(why) = figures["refused"].as_str() {
         let _ = write!(text, "mesh: cannot be drawn with its textures: {why}");
+        let missing = figures["missing"].as_array().into_iter().flatten().filter_map(Value::as_str);
+        let missing: Vec<String> = missing.map(|name| format!("`{name}`")).collect();
+        if !missing.is_empty() {
+            let _ = write!(
+                text,
+                "\nmesh: not found in its folder: {}; put them there, or name them in `files` of a recipe",
+                missing.join(", ")
+            );
+        }
         return text;
     }
     let pictures = figures["textures"].as_array().map_or(&[][..], Vec::as_slice);
@@ -124,5 +144,6 @@ mod tests {
         let found = beside(&inside("scan.obj"), b"mtllib ./my maps/scan.mtl\n");
         let names: Vec<&str> = found.iter().map(|(name, _)| name.as_str()).collect();
         assert_eq!(names, ["b.png", "c.png", "my maps/a/wall.png", "my maps/scan.mtl"]);
+        assert_eq!(Vec::from_iter(missing(b"mtllib my maps/scan.mtl\n", &found)), ["../../out.png"]);
     }
 }

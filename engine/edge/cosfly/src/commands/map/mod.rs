@@ -3,7 +3,7 @@
 mod areas;
 mod convert;
 mod inspect;
-mod mesh;
+pub mod mesh;
 mod tiles;
 mod town;
 

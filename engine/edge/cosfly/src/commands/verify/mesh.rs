@@ -41,7 +41,7 @@ impl MeshArguments {
             let value = serde_json::from_str(value).unwrap_or_else(|_| Value::from(value.trim()));
             keys.insert(key.trim().to_owned(), value);
         }
-        let config: MeshConfig = serde_json::from_value(keys.into()).map_err(|error| {
+        let mut config: MeshConfig = serde_json::from_value(keys.into()).map_err(|error| {
             let hint =
                 "keys are those of `mesh` in stage `render`: `up_axis`, `unit_m`, `turn_deg`, `origin_m`, `files`"
                     .into();
@@ -65,6 +65,11 @@ impl MeshArguments {
         };
         let offset_m =
             flights.iter().find(|flight| flight.town == town).map_or_else(Default::default, |it| it.town_offset_m);
+        if config.files.is_empty() {
+            // Colours count for nothing here: pictures that are not found are told by the mesh.
+            let bytes = std::fs::read(file).unwrap_or_default();
+            config.files = crate::commands::map::mesh::beside(file, &bytes).into_iter().map(|(name, _)| name).collect();
+        }
         let beside: Vec<PathBuf> = config.files.iter().map(|name| file.with_file_name(name)).collect();
         let mesh = read_mesh(&config, file, &beside, offset_m)?;
         Ok(Some(Arc::new(ScannedMesh::new(town.to_owned(), mesh.triangles.iter().map(MeshTriangle::corners)))))
