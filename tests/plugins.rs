@@ -327,6 +327,19 @@ fn the_example_plugins_keep_the_laws_of_their_kinds() {
         let text = cosfly(&["plugin", "check", &file]).run_ok().stdout;
         assert!(text.contains("it keeps the laws of its kind"), "{text}");
     }
+    // Parameters that no recipe could give are not tried.
+    let wind = plugins().join("wind.wasm").display().to_string();
+    for (params, words) in
+        [("{\"sped_mps\": 9}", "did you mean `speed_mps`?"), ("{\"speed_mps\": -9}", "must be at least 0")]
+    {
+        let printed = cosfly(&["plugin", "check", &wind, "--params", params]).run();
+        assert!(
+            printed.code == Some(3) && printed.stderr.contains(words),
+            "{params}: {}{}",
+            printed.stdout,
+            printed.stderr
+        );
+    }
     let in_c = repository_root().join("plugins/examples/in_c/steady_height.wasm").display().to_string();
     assert!(cosfly(&["plugin", "check", &in_c]).run_ok().stdout.contains("it keeps the laws of its kind"));
 }

@@ -47,6 +47,10 @@ impl PluginError {
         let diagnostic = diagnostic.because(&self.message);
         match &self.hint {
             Some(hint) => diagnostic.hint(hint),
+            None if self.function.is_none() => diagnostic.hint(
+                "a plugin is the `.wasm` file that `cargo build --release --target wasm32-unknown-unknown` writes below \
+                 `target`; `cosfly plugin check FILE` says of which kind it is",
+            ),
             None => diagnostic,
         }
     }

@@ -36,7 +36,7 @@ pub use interface_0_1::{Column, Declaration, Effect, Metadata, Plan, RunContext,
 pub use kind::Kind;
 pub use limits::PluginLimits;
 pub use objective::{Drawn, draw_reference};
-pub use parameters::{check_schema, with_defaults};
+pub use parameters::{check_given, check_schema, with_defaults};
 pub use plugin::Plugin;
 pub use sandbox::{Effort, Said};
 pub use session::Session;

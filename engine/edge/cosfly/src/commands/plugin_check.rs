@@ -9,7 +9,8 @@ use cosfly_experts::plugins::config::Makes;
 use cosfly_experts::plugins::{host, tables};
 use cosfly_plugin_host::laws::{self, LawFinding};
 use cosfly_plugin_host::{
-    Declaration, Effect, Effort, Kind, NoTown, Plugin, PluginError, PluginTerm, check_schema, with_defaults,
+    Declaration, Effect, Effort, Kind, NoTown, Plugin, PluginError, PluginTerm, check_given, check_schema,
+    with_defaults,
 };
 use cosfly_schema::flight_table::{self, FlightColumns};
 use serde_json::{Map, Value};
@@ -79,7 +80,7 @@ fn check(arguments: &Arguments, console: &dyn Console) -> Outcome {
     let broken = findings.iter().filter(|finding| !finding.holds).count();
     let _ = match broken {
         0 => writeln!(text, "it keeps the laws of its kind"),
-        count => writeln!(text, "{count} laws are broken"),
+        count => writeln!(text, "broken: {}", counted(count as u64, "law")),
     };
     console.print(&text)?;
     Ok(if broken == 0 { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
@@ -110,6 +111,7 @@ fn params(arguments: &Arguments, plugin: &Plugin) -> Result<(String, Value), Ref
             refused(format!("`--params` is not a JSON object: {error}; write it like `{{\"radius_m\": 3}}`"))
         })?,
     };
+    check_given(&schema, &given).map_err(refused)?;
     Ok((with_defaults(&schema, &given), schema))
 }
 
