@@ -198,6 +198,10 @@ broken = ["--policy", "python:broken:act", "--python", sys.executable, *few]
 (work / "broken.py").write_text("def act(observation):\n    raise KeyError('no such feature')\n")
 refused("broken", *broken, cwd=work, code=1, words="no such feature")
 assert not (work / "broken").exists()
+# So does one that returns nothing, or something else than numbers.
+for said, told in (("None", "returned nothing (`None`)"), ("[None] * 5", "`actions` must be rows of numbers")):
+    (work / "broken.py").write_text(f"def act(observation):\n    return {said}\n")
+    refused("broken", *broken, cwd=work, code=1, words=told)
 (work / "broken.py").write_text("def act(o):\n    return [0] * 5 if o['step'] < 3 else {}['no such feature']\n")
 fly("broken", *broken, cwd=work)
 assert all("no such feature" in row["policy_failure"] for row in rows("broken/mine"))

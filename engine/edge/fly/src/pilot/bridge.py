@@ -48,7 +48,10 @@ try:
     import msgpack
     import numpy as np
 except ImportError as error:
-    refuse(f"{error}: policies in Python need the packages numpy and msgpack, and `{sys.executable}` lacks one")
+    refuse(
+        f"{error}: policies in Python need the packages numpy and msgpack, and `{sys.executable}` lacks one:"
+        " install it there, or name another Python with `--python`"
+    )
 module, function = sys.argv[1], sys.argv[2]
 try:
     sys.path.insert(0, os.getcwd())
@@ -71,6 +74,10 @@ while True:
     try:
         action = policy(observation)
         answer = action if isinstance(action, dict) else {"actions": np.asarray(action)}
+        for key, given in answer.items():
+            if given is None or getattr(given, "dtype", None) == object:
+                said = "nothing (`None`)" if action is None else f"`{action!r:.200}`"
+                raise ValueError(f"`{function}` returned {said}: `{key}` must be rows of numbers")
         send(b"b", msgpack.packb(answer, default=pack_array))
     except Exception:
         send(b"t", traceback.format_exc().encode("utf-8", "replace"))

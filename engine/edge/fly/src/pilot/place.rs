@@ -69,9 +69,12 @@ impl Place {
             return Ok(Self::Baseline { name: baseline.name, variation });
         }
         let problem = refused(format!("there is no policy `{text}`"));
-        let problem = match nearest_name(asked, names()) {
-            Some(near) => problem.hint(format!("did you mean `{near}`?")),
-            None => problem,
+        let problem = match (nearest_name(asked, names()), change) {
+            (Some(near), _) => problem.hint(format!("did you mean `{near}`?")),
+            (None, None) if text.ends_with(".onnx") => problem.hint(format!("did you mean `onnx:{text}`?")),
+            (None, Some(port)) if port.parse::<u16>().is_ok() => problem.hint(format!("did you mean `ws://{text}`?")),
+            (None, Some(_)) if !text.contains('/') => problem.hint(format!("did you mean `python:{text}`?")),
+            (None, _) => problem,
         };
         let names: Vec<&str> = names().collect();
         Err(problem
@@ -116,6 +119,19 @@ impl Place {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_place_without_its_kind_is_told_with_it() {
+        for (text, meant) in [
+            ("mine:act", "`python:mine:act`"),
+            ("localhost:8000", "`ws://localhost:8000`"),
+            ("nets/mine.onnx", "`onnx:nets/mine.onnx`"),
+            ("folow", "`follow`"),
+        ] {
+            let refused = Place::read(text).expect_err("refused");
+            assert!(refused.hints[0].contains(meant), "{text}: {:?}", refused.hints);
+        }
+    }
 
     #[test]
     fn names_of_baselines_are_read_back() {
