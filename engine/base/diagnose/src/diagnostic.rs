@@ -58,6 +58,9 @@ pub struct Diagnostic {
 /// Result of fallible work of the engine.
 pub type Result<T, E = Box<Diagnostic>> = std::result::Result<T, E>;
 
+/// The way out of a place that the user may not read or write.
+const NO_ACCESS: &str = "change its permissions, or name another place (`--out`, `--store`)";
+
 impl Diagnostic {
     /// Creates a diagnostic. The code is written as a literal, so that all codes can be found in the source.
     pub fn new(code: &'static str, fault: Fault, message: impl Into<String>) -> Box<Self> {
@@ -67,13 +70,14 @@ impl Diagnostic {
     /// Error of the operating system during `action`, such as "read `a.toml`"; a full disk has a kind of its own.
     pub fn io(action: impl fmt::Display, error: &Error) -> Box<Self> {
         let message = format!("could not {action}");
-        let diagnostic = match error.kind() {
+        match error.kind() {
             ErrorKind::StorageFull | ErrorKind::QuotaExceeded => Diagnostic::new("disk-full", Fault::DiskFull, message).hint(
                 "free some space, or choose another disk for what is written, then run the same command again (finished items of a run are kept)",
             ),
+            ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => Diagnostic::new("machine-io", Fault::Machine, message).hint(NO_ACCESS),
             _ => Diagnostic::new("machine-io", Fault::Machine, message),
-        };
-        diagnostic.because(error)
+        }
+        .because(error)
     }
 
     /// A file or folder that somebody named, as in "the map `a.osm`", and that cannot be read, for whatever reason.

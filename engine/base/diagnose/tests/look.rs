@@ -45,6 +45,16 @@ fn without_a_file_there_is_no_gutter_and_long_hints_wrap() {
 }
 
 #[test]
+fn places_of_others_have_a_way_out() {
+    let error = std::io::Error::from(std::io::ErrorKind::PermissionDenied);
+    insta::assert_snapshot!(render(&Diagnostic::io("write `out/a`", &error), false), @r#"
+    error[machine-io]: could not write `out/a`
+     = because: permission denied
+     = help: change its permissions, or name another place (`--out`, `--store`)
+    "#);
+}
+
+#[test]
 fn a_bare_message_is_one_line() {
     insta::assert_snapshot!(render(&Diagnostic::new("code", Fault::Bug, "that was not to be"), false), @r#"error[code]: that was not to be"#);
 }

@@ -74,13 +74,8 @@ impl Follow {
     fn too_few(&self, eligible: usize) -> Box<Diagnostic> {
         let kinds: Vec<String> = self.kinds.iter().map(|kind| format!("`{}`", kind.name())).collect();
         let message = format!(
-            "`follow.count` is {}, but {} of the kinds {} are there all the time and cover {} m",
+            "`follow.count` is {}, but the bodies of the kinds {} that are there all the time and cover {} m are {eligible}",
             self.count,
-            match eligible {
-                0 => "no bodies".to_owned(),
-                1 => "only one body".to_owned(),
-                _ => format!("only {eligible} bodies"),
-            },
             kinds.join(", "),
             self.min_length_m
         );

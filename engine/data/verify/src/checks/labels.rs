@@ -3,6 +3,7 @@
 
 use crate::report::{LabelGap, VerifyReport};
 use crate::rows::{PlacedFlight, PlacedFrame};
+use cosfly_diagnose::counted;
 
 /// Shares that differ by more than this are listed.
 const AGREEMENT: f64 = 0.05;
@@ -48,7 +49,8 @@ fn reason(flight: &PlacedFlight, frame: &PlacedFrame, gap: f64) -> String {
     } else if is_behind_boxes && -gap * all_px > MOST_MISSED_PX {
         BOXES.into()
     } else if all_px < FEW_PIXELS {
-        format!("the body has {all_px:.0} pixels, of which one is {:.1} points", 100.0 / all_px.max(1.0))
+        let pixels = counted(all_px.round() as u64, "pixel");
+        format!("the body has {pixels}, of which one is {:.1} points", 100.0 / all_px.max(1.0))
     } else if at_edge {
         "the body is cut off by the picture's edge".into()
     } else if !flight.lens.is_none() {
