@@ -59,7 +59,7 @@ fn heading<E>(report: &Report, pictures: Source<'_, E>) -> Result<String, E> {
     let mut gallery = String::new();
     for (sketch, frame) in moments::gallery(&report.figures.drawn(), GALLERY) {
         let Some(jpeg) = pictures(sketch, frame)? else { continue };
-        let alternative = format!("A pedestrian from the air: {}, frame {frame}, {}", sketch.id, sketch.weather);
+        let alternative = format!("A target from the air: {}, frame {frame}, {}", sketch.id, sketch.weather);
         let _ = write!(gallery, "<li>{}</li>", image(&jpeg, sketch, frame, &alternative));
     }
     if !gallery.is_empty() {

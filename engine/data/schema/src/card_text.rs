@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 /// Names that a title or a description may have in braces, with their meanings.
-pub const FACTS: [(&str, &str); 5] = [
+pub const FACTS: [(&str, &str); 6] = [
     ("towns", "names of the towns"),
-    ("pedestrians", "number of pedestrians who are followed"),
+    ("targets", "number of those who are followed: people, vehicles, points"),
+    ("pedestrians", "the same number, where all of them are pedestrians"),
     ("flights", "number of flights"),
     ("frames", "number of frames"),
     ("minutes", "time flown, minutes"),

@@ -16,8 +16,8 @@ pub struct DatasetConfig {
     /// Short name: letters, digits, `-` and `_`; also the name in `croissant.json`.
     #[schemars(regex(pattern = r"^[A-Za-z0-9][A-Za-z0-9_-]{0,95}$"))]
     pub name: String,
-    /// Title of the card. `{towns}`, `{pedestrians}`, `{flights}`, `{frames}` and `{minutes}` stand for the facts of the
-    /// dataset, such as `Town02`, `4 pedestrians`, `8 flights`, `1600 frames` and `13.3 minutes`.
+    /// Title of the card. `{towns}`, `{targets}`, `{pedestrians}`, `{flights}`, `{frames}` and `{minutes}` stand for the facts
+    /// of the dataset, such as `Town02`, `4 targets`, `4 pedestrians`, `8 flights`, `1600 frames` and `13.3 minutes`.
     pub title: String,
     /// Description of the dataset, one paragraph, for the card and `croissant.json`, with facts in braces as in `title`.
     #[schemars(length(min = 1))]
@@ -57,10 +57,8 @@ impl Default for DatasetConfig {
         Self {
             name: "cosfly-dataset".into(),
             title: "Aerial tracking flights in {towns}".into(),
-            description: "{flights} of a simulated drone that keeps a walking pedestrian in view between buildings and \
-                          trees, behind {pedestrians} in {towns}: expert and perturbed trajectories with RGB, metric depth, semantic and instance \
-                          images, 6-DoF camera poses, target states and bilingual instructions."
-                .into(),
+            description: "{flights} of a simulated drone that keeps a moving target in view between buildings and trees, behind {targets} in {towns}: trajectories \
+                          with RGB, metric depth, semantic and instance images, 6-DoF camera poses, target states and bilingual instructions.".into(),
             version: "1.0.0".into(),
             license: LicenseConfig::default(),
             creator: CreatorConfig::default(),

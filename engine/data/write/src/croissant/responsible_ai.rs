@@ -1,6 +1,7 @@
 //! The Responsible AI terms: what was simulated, how it was checked, what it is for and what it is not.
 
 use crate::publish::summary::Summary;
+use cosfly_diagnose::counted;
 use cosfly_schema::config::{DatasetConfig, RESPONSIBLE_AI_TERMS};
 use serde_json::{Map, Value, json};
 
@@ -24,14 +25,14 @@ fn default_value(term: &str, config: &DatasetConfig, summary: &Summary) -> Value
         "dataCollectionTimeframe" => json!([config.date_published, config.date_published]),
         "annotationsPerItem" => json!("1"),
         "dataCollectionMissingData" => json!(format!(
-            "{} pedestrians got no flight because no safe one was found; table rejected gives the reason of each.",
-            summary.rejected
+            "{} got no flight or no film; table rejected gives the reason of each.",
+            counted(summary.rejected, "item")
         )),
         "dataBiases" => json!([
             "Pedestrians, vehicles, weather and camera motion are those of a simulator: street layouts of a few towns, \
              few shapes of bodies, people who walk or stand, presets of weather.",
             "Expert flights weigh distance, view, smoothness and safety as the weights of their planner say. With \
-             the default weights nothing keeps them behind the pedestrian, who is seen from any side; \
+             the default weights nothing keeps them behind the target, which is seen from any side; \
              mean_rear_angle_deg and mean_distance_m of table trajectories say how each one flew.",
         ]),
         "dataLimitations" => json!([
@@ -61,7 +62,7 @@ fn text(term: &str) -> &'static str {
              visibility by rays and by pixels, boxes, captions from templates filled with facts of the flight."
         }
         "dataCollection" => {
-            "Pedestrians walk simulated routes on the walkable ground of a town; an optimiser plans the drone's \
+            "People walk simulated routes on the walkable ground of a town, vehicles drive on its lanes; an optimiser plans the drone's \
              flight behind each of them; a perturbed twin departs from it at random and returns; a renderer makes the \
              images of every frame."
         }

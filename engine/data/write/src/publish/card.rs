@@ -139,7 +139,7 @@ fn figures(config: &DatasetConfig, summary: &Summary) -> String {
         let _ = writeln!(text, "| {name} | {value} |");
     };
     row("flights", format!("{} expert, {} perturbed", summary.experts, summary.perturbed));
-    row("pedestrians", summary.pedestrians.len().to_string());
+    row("targets", summary.pedestrians.len().to_string());
     row("frames", summary.frames.to_string());
     row("time flown", format!("{:.1} min", summary.duration_s / 60.0));
     row("image size", sizes.join(", "));
@@ -167,7 +167,7 @@ fn figures(config: &DatasetConfig, summary: &Summary) -> String {
             format!("{}, {}", counted(flights, "flight"), counted(frames, "frame")),
         );
     }
-    text.push_str("\nFlights behind one pedestrian, and behind pedestrians whose ways overlap, are always in the same split (`splits.json`). `report/index.html` shows all of this as a page: maps, \
+    text.push_str("\nFlights behind one target, and behind targets whose ways overlap, are always in the same split (`splits.json`). `report/index.html` shows all of this as a page: maps, \
          curves, distributions, worst cases with their pictures.\n\n");
     text
 }
@@ -319,7 +319,7 @@ fn extra_section(kept: &ExtraSummary) -> String {
 
 fn invented(summary: &Summary) -> String {
     let mut text = String::from(
-        "## What is invented\n\nAll flights, pedestrians and images are simulated. Beyond that, of the towns:\n\n",
+        "## What is invented\n\nAll flights, people, vehicles and images are simulated. Beyond that, of the towns:\n\n",
     );
     for (town, figures) in &summary.towns {
         let _ = writeln!(text, "* {} (geometry BLAKE3 `{}`)", markdown_code(town), figures.geometry_digest);

@@ -19,7 +19,7 @@ pub struct Summary {
     pub experts: u64,
     /// Perturbed flights.
     pub perturbed: u64,
-    /// Distinct pedestrians: town and id.
+    /// Distinct targets, on foot or not: town and id.
     pub pedestrians: BTreeSet<(String, String)>,
     /// Frames.
     pub frames: u64,
@@ -169,6 +169,7 @@ impl Summary {
         };
         BTreeMap::from([
             ("towns", towns),
+            ("targets", counted(self.pedestrians.len() as u64, "target")),
             ("pedestrians", counted(self.pedestrians.len() as u64, "pedestrian")),
             ("flights", counted(self.flights(), "flight")),
             ("frames", counted(self.frames, "frame")),

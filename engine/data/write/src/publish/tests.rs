@@ -136,6 +136,16 @@ fn the_card_keeps_the_configs_of_tables_without_rows_and_says_which_they_are() {
 }
 
 #[test]
+fn card_and_manifest_call_those_who_are_followed_targets() {
+    let files = publish();
+    let card = String::from_utf8(files["README.md"].clone()).unwrap();
+    assert!(card.contains("keeps a moving target in view") && card.contains("\n| targets | "), "{card}");
+    let croissant: serde_json::Value = serde_json::from_slice(&files["croissant.json"]).unwrap();
+    assert!(!croissant["description"].as_str().unwrap().contains("pedestrian"));
+    assert!(!croissant["rai:dataCollectionMissingData"].to_string().contains("pedestrian"), "{croissant}");
+}
+
+#[test]
 fn the_card_says_where_no_flight_is_as_long_as_a_window() {
     let card = |size| {
         let mut config = DatasetConfig::default();
