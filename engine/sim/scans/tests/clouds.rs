@@ -175,6 +175,51 @@ fn a_class_that_a_survey_does_not_tell_is_found_by_shape() {
 }
 
 #[test]
+fn feet_of_walls_are_parts_of_houses_where_no_class_tells_them() {
+    let roof: Vec<[f64; 3]> = scene().into_iter().filter(|(_, class)| *class == 6).map(|(at, _)| at).collect();
+    let end = |axis: usize, pick: fn(f64, f64) -> f64| roof.iter().map(|at| at[axis]).reduce(pick).expect("a house");
+    let [[west, east], [south, north]] = [0, 1].map(|axis| [end(axis, f64::min), end(axis, f64::max)]);
+    let eaves_m = end(2, f64::min).max(4.0);
+    let mut walls: Vec<[f64; 3]> = vec![];
+    for [from, to] in [
+        [[west, south], [east, south]],
+        [[east, south], [east, north]],
+        [[west, north], [east, north]],
+        [[west, south], [west, north]],
+    ] {
+        for (along, up) in
+            (0..80).flat_map(|along| (0..40).map(move |up| (f64::from(along) / 79.0, f64::from(up) / 39.0)))
+        {
+            let at = [0, 1].map(|axis| from[axis] + along * (to[axis] - from[axis]));
+            walls.push([at[0], at[1], 0.8 + up * (eaves_m - 0.8)]);
+        }
+    }
+    let points = scene().into_iter().map(|(at, class)| (at, if class == 2 { 2 } else { 1 }));
+    let points: Vec<_> = points.chain(walls.iter().map(|at| (*at, 1))).collect();
+    let town = read::<Las>(&las(&points, false).unwrap(), &CloudOptions::default()).unwrap();
+    let house = BoxBvh::build(of_kind(&town, ObstacleKind::Building).iter().map(|one| one.shape).collect());
+    for [x, y, z] in walls {
+        assert!(house.nearest(DVec3::new(x, -y, z), 0.5).is_some(), "{x} {y} {z}");
+    }
+    let beside = |one: &&Obstacle| house.nearest(one.shape.center_in_world, 1.5).is_some();
+    let low =
+        [ObstacleKind::Bush, ObstacleKind::Static].map(|kind| of_kind(&town, kind).into_iter().filter(beside).count());
+    assert_eq!(low, [0, 0], "{:?}", town.obstacles);
+}
+
+#[test]
+fn a_cloud_whose_y_axis_points_up_is_a_warning() {
+    // A street of 60 m by 12 m; before it stands its copy, upended.
+    let ground = || (0..6000).map(|i| [0.5 * f64::from(i % 120), 0.24 * f64::from(i / 120), 0.01 * f64::from(i % 7)]);
+    let warned = |points: Vec<write_clouds::Point>| {
+        let (_, warnings) = Las::read(&las(&points, false).unwrap(), &CloudOptions::default()).unwrap();
+        warnings.iter().any(|warning| warning.contains("its z axis must point up"))
+    };
+    assert!(!warned(ground().map(|at| (at, 1)).collect()));
+    assert!(warned(ground().flat_map(|[x, y, z]| [([x, y, z], 1), ([y, 12.0 + z, x], 1)]).collect()));
+}
+
+#[test]
 fn narrow_plants_on_a_wall_are_parts_of_the_house() {
     let mut points = scene();
     // Bushes before and behind it in the order of the plan.

@@ -28,6 +28,11 @@ const LEAST_SHARE: f64 = 0.001;
 /// Smallest roof, square metres.
 const SMALLEST_ROOF_M2: f64 = 16.0;
 
+/// The points of a roof or wall in a cell of the plan are a wall where their lowest one is at most so high above the ground and
+/// their highest one so much higher, metres.
+const LOWEST_WALL_M: f64 = 3.0;
+const LEAST_WALL_M: f64 = 1.5;
+
 /// Questions that the classes of a file leave open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unknown {
@@ -123,9 +128,35 @@ pub fn estimate(cloud: &mut Cloud, sorted: &Sorted, relief: &Relief, unknown: Un
             }
         }
     };
-    let classes = (0..cloud.len()).into_par_iter().map(class_of).collect();
+    let mut classes: Vec<u8> = (0..cloud.len()).into_par_iter().map(class_of).collect();
+    for foot in feet_of_walls(cloud, sorted, relief, unknown, &classes) {
+        classes[foot] = class::BUILDING;
+    }
     cloud.classes = classes;
     unknown.note()
+}
+
+/// Open points below the height of roofs in the cells of walls, told by `classes`: without them each house would stand in a low
+/// thing along its walls.
+fn feet_of_walls(cloud: &Cloud, sorted: &Sorted, relief: &Relief, unknown: Unknown, classes: &[u8]) -> Vec<usize> {
+    let height_m = |point: usize| {
+        let at = cloud.point(point);
+        at.z - relief.height_m(at.truncate())
+    };
+    let is_of_house = |point: &usize| classes[*point] == class::BUILDING && unknown.is_open(cloud.classes[*point]);
+    let is_wall = |cell: &usize| {
+        let heights = sorted.of(*cell).filter(is_of_house).map(height_m);
+        let (low_m, high_m) =
+            heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), it| (low.min(it), high.max(it)));
+        low_m <= LOWEST_WALL_M && high_m - low_m >= LEAST_WALL_M
+    };
+    let is_foot = |point: &usize| {
+        unknown.is_open(cloud.classes[*point])
+            && cloud.classes[*point] != class::BRIDGE
+            && height_m(*point) <= LOWEST_ROOF_M
+    };
+    let walls = (0..sorted.grid.cells()).into_par_iter().filter(is_wall);
+    walls.flat_map_iter(|cell| sorted.of(cell).filter(is_foot)).collect()
 }
 
 /// Cells of which points lie in one plane with those around, or with those around a neighbour.
