@@ -59,21 +59,19 @@ fn check_value(rule: &Value, value: &Value, path: &str) -> Result<(), String> {
         Value::Array(_) => "array",
         Value::Object(_) => "object",
     };
-    if let Some(wanted) = rule.get("type").and_then(Value::as_str) {
-        if wanted != kind && (wanted, kind) != ("number", "integer") {
-            return Err(format!("`{path}` is `{value}`; it must be of the type {wanted}"));
-        }
+    let is_other = |wanted: &&str| *wanted != kind && (*wanted, kind) != ("number", "integer");
+    if let Some(wanted) = rule.get("type").and_then(Value::as_str).filter(is_other) {
+        return Err(format!("`{path}` is `{value}`; it must be of the type {wanted}"));
     }
-    let limit = |key: &str| rule.get(key).and_then(Value::as_f64);
     if let Some(number) = value.as_f64() {
-        let rules: [(&str, &str, fn(f64, f64) -> bool); 4] = [
-            ("minimum", "at least", |a, b| a >= b),
-            ("maximum", "at most", |a, b| a <= b),
-            ("exclusiveMinimum", "more than", |a, b| a > b),
-            ("exclusiveMaximum", "less than", |a, b| a < b),
-        ];
-        for (key, words, holds) in rules {
-            if let Some(limit) = limit(key).filter(|limit| !holds(number, *limit)) {
+        let limit = |key: &str| rule.get(key).and_then(Value::as_f64);
+        for (words, limit, is_kept) in [
+            ("at least", limit("minimum"), limit("minimum").is_none_or(|limit| number >= limit)),
+            ("at most", limit("maximum"), limit("maximum").is_none_or(|limit| number <= limit)),
+            ("more than", limit("exclusiveMinimum"), limit("exclusiveMinimum").is_none_or(|limit| number > limit)),
+            ("less than", limit("exclusiveMaximum"), limit("exclusiveMaximum").is_none_or(|limit| number < limit)),
+        ] {
+            if let Some(limit) = limit.filter(|_| !is_kept) {
                 return Err(format!("`{path}` is `{value}`; it must be {words} {limit}"));
             }
         }

@@ -14,7 +14,7 @@ use cosfly_town::mesh::MeshBuilder;
 use cosfly_town::terrain::{USUAL_MARGIN_M, add_terrain};
 
 /// What a cloud that is higher than wide says: phones and trainers of splats write files whose y axis points up.
-fn is_upended(cloud: &Cloud) -> Option<String> {
+fn upended(cloud: &Cloud) -> Option<String> {
     let heights_m = || (0..cloud.len()).map(|point| cloud.point(point).z);
     let height_m = heights_m().fold(f64::NEG_INFINITY, f64::max) - heights_m().fold(f64::INFINITY, f64::min);
     let width_m = (cloud.bounds[1] - cloud.bounds[0]).min_element();
@@ -33,7 +33,7 @@ fn is_upended(cloud: &Cloud) -> Option<String> {
 pub fn town_of(mut cloud: Cloud, options: &CloudOptions) -> Result<(Town, Vec<String>), MapError> {
     let mut warnings = std::mem::take(&mut cloud.warnings);
     let mut notes = Vec::new();
-    warnings.extend(is_upended(&cloud));
+    warnings.extend(upended(&cloud));
     let spacing_m = survey::spacing_m(&cloud);
     let voxel_m = survey::voxel_m(&cloud, spacing_m, options.voxel_m, &mut warnings);
     let grid = survey::grid_of(&cloud, voxel_m);
