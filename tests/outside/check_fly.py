@@ -53,7 +53,7 @@ def fly(out, *arguments, cwd=here, clips=0):
 def refused(out, *arguments, code, words, cwd=here):
     """A run that ends with an exit code and words on standard error."""
     ended = subprocess.run(command(out, *arguments), cwd=cwd, capture_output=True, text=True, timeout=900)
-    require(ended.returncode == code and words in ended.stderr, f"{arguments}: exit code {ended.returncode}\n{ended.stderr}")
+    require(ended.returncode == code and words in " ".join(ended.stderr.split()), f"{arguments}: exit code {ended.returncode}\n{ended.stderr}")
 
 
 def rows(folder):
