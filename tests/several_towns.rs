@@ -61,7 +61,7 @@ fn the_recipe_of_two_towns_makes_a_verified_dataset_with_an_unseen_town() {
     assert!(out.join("mcap/uptown/000/expert_uptown-p00000.mcap").is_file());
     let page = text(&out.join("report/index.html"));
     assert!(page.contains("<h3>downtown</h3>") && page.contains("<h3>uptown</h3>"));
-    assert!(text(&out.join("README.md")).contains("| pedestrians | 4 |"));
+    assert!(text(&out.join("README.md")).contains("| targets | 4 |"));
     // The predicted flights are those of `test`, all of them in the unseen town.
     let scored = cosfly(&["eval", &at("out"), "--json"]).run_ok().stdout;
     assert!(scored.contains("unseen") && !scored.contains("\"seen\""), "{scored}");

@@ -218,12 +218,8 @@ fn filmable(
         let hint = format!("set its `offset_s` in `stages.{}.cameras` to less than {step_s}", context.id.stage);
         return Err(Diagnostic::new("camera-offset", Fault::Recipe, message).hint(hint));
     }
-    let too_short = (film.frames().count() < 2 && (every > 1 || offset_s > 0.0)).then(|| {
-        format!(
-            "a film needs two pictures; one of every {every} of {} frames, from {offset_s} s on, is one",
-            flight.track.len()
-        )
-    });
+    let too_short = (film.frames().count() < 2 && (every > 1 || offset_s > 0.0))
+        .then(|| format!("a film needs two pictures; one of every {every} frames, from {offset_s} s on, is one"));
     let inside = too_short.or_else(|| camera_inside(world, film.poses()));
     Ok(inside.map_or(Ok((flight, shooting)), Err))
 }
