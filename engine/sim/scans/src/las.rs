@@ -43,7 +43,7 @@ fn town(bytes: &[u8], options: &CloudOptions) -> Result<(Town, Vec<String>), Map
     let projection = Projection::read(&header)?;
     let mut warnings = Vec::new();
     let units_m = projection.units_m(options.unit_m, &mut warnings)?;
-    let mut points = Points { header: &header, units_m, cloud: CloudBuilder::default(), left_out: 0 };
+    let mut points = Points { header: &header, units_m, cloud: CloudBuilder::new(options.up_axis), left_out: 0 };
     match header.record(compressed::USER, compressed::RECORD) {
         Some(record) if header.is_compressed => {
             let read = |bytes: &[u8]| Record::read(bytes, header.is_long());

@@ -18,5 +18,6 @@ pub mod relief;
 pub mod scalar;
 pub mod solid_cells;
 pub mod tiles;
+pub mod up_axis;
 pub mod way_out;
 pub mod window_cover;

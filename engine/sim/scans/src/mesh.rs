@@ -16,7 +16,7 @@ pub mod solid;
 pub mod uncovered;
 pub mod whole;
 
-pub use options::{MeshOptions, UpAxis};
+pub use options::MeshOptions;
 pub use parts::{Part, PartBuilder};
 
 use crate::open_ground::open_ground;

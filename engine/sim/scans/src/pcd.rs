@@ -53,7 +53,7 @@ fn town(bytes: &[u8], options: &CloudOptions) -> Result<(Town, Vec<String>), Map
     let (head, data) = Head::read(bytes)?;
     let columns = Columns::find(head.fields.iter().map(|field| field.name.as_str()))?;
     let unit_m = options.unit_m.unwrap_or(1.0);
-    let mut cloud = CloudBuilder::default();
+    let mut cloud = CloudBuilder::new(options.up_axis);
     match head.packing.as_str() {
         "ascii" => head.add_lines(data, &columns, unit_m, &mut cloud)?,
         "binary" => head.add_rows(data, &columns, unit_m, &mut cloud)?,

@@ -58,7 +58,7 @@ fn town(bytes: &[u8], options: &CloudOptions) -> Result<(Town, Vec<String>), Map
     }
     let columns = Columns::find(head.properties.iter().map(|(name, _)| name.as_str()))?;
     let unit_m = options.unit_m.unwrap_or(1.0);
-    let mut cloud = CloudBuilder::default();
+    let mut cloud = CloudBuilder::new(options.up_axis);
     match head.encoding {
         Encoding::Text => head.each_line(data, columns.last(), &mut |value| columns.push(&mut cloud, unit_m, value))?,
         Encoding::Binary { is_big_endian } => {

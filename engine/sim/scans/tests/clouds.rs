@@ -7,6 +7,7 @@ use cosfly_scans::cloud::CloudOptions;
 use cosfly_scans::las::Las;
 use cosfly_scans::pcd::Pcd;
 use cosfly_scans::ply::Ply;
+use cosfly_scans::up_axis::UpAxis;
 use cosfly_town::{MapError, MapFormat};
 use std::collections::BTreeSet;
 
@@ -208,12 +209,29 @@ fn feet_of_walls_are_parts_of_houses_where_no_class_tells_them() {
 }
 
 #[test]
+fn a_cloud_is_the_same_town_whichever_of_its_axes_points_up() {
+    let turned = |turn: fn([f64; 3]) -> [f64; 3], up_axis: UpAxis| {
+        let points: Vec<write_clouds::Point> = scene().into_iter().map(|(at, class)| (turn(at), class)).collect();
+        let options = CloudOptions { up_axis: Some(up_axis), ..CloudOptions::default() };
+        let files = [
+            read::<Ply>(&ply(&points, PLY_ENCODINGS[1]), &options),
+            read::<Pcd>(&pcd(&points, PCD_ENCODINGS[1]), &options),
+            read::<Las>(&las(&points, false).unwrap(), &options),
+        ];
+        files.map(|town| format!("{:?}", town.unwrap().obstacles))
+    };
+    let upright = turned(|at| at, UpAxis::Z);
+    assert_eq!(turned(|[x, y, z]| [x, z, -y], UpAxis::Y), upright);
+    assert_eq!(turned(|[x, y, z]| [x, -z, y], UpAxis::MinusY), upright);
+}
+
+#[test]
 fn a_cloud_whose_y_axis_points_up_is_a_warning() {
     // A street of 60 m by 12 m; before it stands its copy, upended.
     let ground = || (0..6000).map(|i| [0.5 * f64::from(i % 120), 0.24 * f64::from(i / 120), 0.01 * f64::from(i % 7)]);
     let warned = |points: Vec<write_clouds::Point>| {
         let (_, warnings) = Las::read(&las(&points, false).unwrap(), &CloudOptions::default()).unwrap();
-        warnings.iter().any(|warning| warning.contains("its z axis must point up"))
+        warnings.iter().any(|warning| warning.contains("check `options.up_axis`"))
     };
     assert!(!warned(ground().map(|at| (at, 1)).collect()));
     assert!(warned(ground().flat_map(|[x, y, z]| [([x, y, z], 1), ([y, 12.0 + z, x], 1)]).collect()));

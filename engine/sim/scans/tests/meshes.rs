@@ -7,8 +7,9 @@ use cosfly_frames::{DVec3, RandomStream, Seed, real};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_scans::gltf::document::Document;
 use cosfly_scans::gltf::{GlTf, triangles};
-use cosfly_scans::mesh::{MeshOptions, Part, UpAxis, solid};
+use cosfly_scans::mesh::{MeshOptions, Part, solid};
 use cosfly_scans::obj::Obj;
+use cosfly_scans::up_axis::UpAxis;
 use cosfly_town::{MapError, MapFormat};
 use parry3d_f64::math::Vector;
 use parry3d_f64::query::PointQuery;
@@ -67,7 +68,7 @@ fn the_axis_and_the_unit_are_the_users() {
         let [x, y, z] = vertex.map(|metres| 100.0 * metres);
         *vertex = [x, -z, y];
     });
-    let options = MeshOptions { up_axis: UpAxis::Z, unit_m: Some(0.01), ..MeshOptions::default() };
+    let options = MeshOptions { up_axis: Some(UpAxis::Z), unit_m: Some(0.01), ..MeshOptions::default() };
     check_scene(&read::<Obj>(&obj(&meshes), &options).unwrap());
 }
 

@@ -2,7 +2,7 @@
 
 use super::materials::{name_of, plain};
 use cosfly_frames::{DVec3, real};
-use cosfly_scans::mesh::UpAxis;
+use cosfly_scans::up_axis::UpAxis;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -15,7 +15,7 @@ pub struct MeshConfig {
     /// Files that an OBJ file names: its `.mtl` file and the pictures. No other file is opened.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub files: Vec<String>,
-    /// Axis of the file that points up, `y` or `z`, as in the options of the map. Default `y`.
+    /// Axis of the file that points up, `y`, `z` or `-y`, as in the options of the map. Default `y`.
     #[serde(default)]
     pub up_axis: UpAxis,
     /// Length of the file's unit, metres, 0.000001 to 1000. Default: 1.
@@ -128,11 +128,7 @@ impl MeshConfig {
 impl MeshPlace {
     /// A point of the file in the world, metres.
     pub fn in_world(&self, point: DVec3) -> DVec3 {
-        let point = point * self.unit_m;
-        let upright = match self.up_axis {
-            UpAxis::Y => DVec3::new(point.x, -point.z, point.y),
-            UpAxis::Z => point,
-        };
+        let upright = self.up_axis.in_map(point * self.unit_m);
         let [sin, cos] = self.turn;
         let turned = DVec3::new(upright.x * cos - upright.y * sin, upright.x * sin + upright.y * cos, upright.z);
         let in_map = turned + self.origin_in_map;

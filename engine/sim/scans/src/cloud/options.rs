@@ -1,5 +1,6 @@
 //! [`CloudOptions`]: the few choices that all formats of point clouds leave to the user.
 
+use crate::up_axis::UpAxis;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -7,6 +8,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CloudOptions {
+    /// Axis of the file that points up: `y`, `z` or `-y` (y down). Default: `y` for meshes, `z` for point clouds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub up_axis: Option<UpAxis>,
     /// Side of the cells in which shapes become solid boxes, metres. 0.2 to 10. Default: 0.5; up to 2 for clouds of sparse points.
     #[schemars(range(min = 0.2, max = 10.0))]
     pub voxel_m: Option<f64>,

@@ -1,5 +1,6 @@
 //! [`Cloud`]: measured points as the town's builder takes them, whatever file they come from.
 
+use crate::up_axis::UpAxis;
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_town::MapError;
 use cosfly_town::world::WorldFromMap;
@@ -60,9 +61,11 @@ pub struct Cloud {
     pub warnings: Vec<String>,
 }
 
-/// Takes points one by one, map frame (right-handed, z up), metres.
+/// Takes points one by one, in the file's own axes (right-handed), metres.
 #[derive(Debug, Default)]
 pub struct CloudBuilder {
+    /// `z` where none is told.
+    up_axis: Option<UpAxis>,
     origin_in_map: Option<DVec3>,
     positions: Vec<[f32; 3]>,
     classes: Vec<u8>,
@@ -71,8 +74,14 @@ pub struct CloudBuilder {
 }
 
 impl CloudBuilder {
+    /// No points yet, of a file with this axis up; `z` by default.
+    pub fn new(up_axis: Option<UpAxis>) -> Self {
+        Self { up_axis, ..Self::default() }
+    }
+
     /// Adds a point; noise and points that are nowhere are counted.
-    pub fn push(&mut self, point_in_map: DVec3, class: u8) {
+    pub fn push(&mut self, point_in_file: DVec3, class: u8) {
+        let point_in_map = self.up_axis.unwrap_or(UpAxis::Z).in_map(point_in_file);
         let farthest = DVec3::new(FARTHEST_M, FARTHEST_M, HIGHEST_M);
         // Each number is compared: the largest of a vector passes over those that are none.
         if !point_in_map.abs().cmple(farthest).all() {
@@ -90,7 +99,7 @@ impl CloudBuilder {
 
     /// An empty builder for points that [`Self::join`] adds; none before the first point, from which all others count.
     pub fn sibling(&self) -> Option<Self> {
-        self.origin_in_map.map(|origin| Self { origin_in_map: Some(origin), ..Self::default() })
+        self.origin_in_map.map(|origin| Self { origin_in_map: Some(origin), ..Self::new(self.up_axis) })
     }
 
     /// Adds the points of a sibling.

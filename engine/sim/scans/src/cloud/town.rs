@@ -20,8 +20,8 @@ fn upended(cloud: &Cloud) -> Option<String> {
     let width_m = (cloud.bounds[1] - cloud.bounds[0]).min_element();
     (height_m > width_m).then(|| {
         format!(
-            "the cloud is {height_m:.0} m high and {width_m:.0} m wide: its z axis must point up; turn a file whose y axis does, \
-             x to x, y to z and z to -y"
+            "the cloud is {height_m:.0} m high and {width_m:.0} m wide: check `options.up_axis`, the axis of the \
+             file that points up"
         )
     })
 }

@@ -1,5 +1,6 @@
 //! [`MeshOptions`]: the choices that all formats of meshes leave to the user.
 
+use crate::up_axis::UpAxis;
 use cosfly_frames::DVec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -7,23 +8,13 @@ use serde::{Deserialize, Serialize};
 /// Advice on coordinates that count from the centre of the Earth.
 pub const IN_A_PLAN: &str = "export the file with the axes of a plan: x to the east, y up, z to the south, metres";
 
-/// Axis of a file that points up.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum UpAxis {
-    /// y up, z towards the viewer.
-    #[default]
-    Y,
-    /// z up.
-    Z,
-}
-
 /// Options of meshes.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct MeshOptions {
-    /// Axis of the file that points up, `y` or `z`. Default `y`.
-    pub up_axis: UpAxis,
+    /// Axis of the file that points up: `y`, `z` or `-y` (y down). Default: `y` for meshes, `z` for point clouds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub up_axis: Option<UpAxis>,
     /// Side of the cells in which shapes become solid boxes, metres. 0.2 to 10. Default: 0.5; up to 2 for clouds of sparse points.
     #[schemars(range(min = 0.2, max = 10.0))]
     pub voxel_m: Option<f64>,
@@ -38,10 +29,6 @@ pub struct MeshOptions {
 impl MeshOptions {
     /// A point of the file in the map frame (right-handed, z up), metres.
     pub fn in_map(&self, point: DVec3) -> DVec3 {
-        let point = point * self.unit_m.unwrap_or(1.0);
-        match self.up_axis {
-            UpAxis::Y => DVec3::new(point.x, -point.z, point.y),
-            UpAxis::Z => point,
-        }
+        self.up_axis.unwrap_or(UpAxis::Y).in_map(point * self.unit_m.unwrap_or(1.0))
     }
 }
