@@ -13,9 +13,10 @@ use cosfly_onnx::{OnnxModel, Tensor};
 use cosfly_plugin_host::{Host, PluginLimits};
 use cosfly_read::predictions::run_lengths::Runs;
 use cosfly_scans::tiles::{TilesChoice, join};
+use cosfly_scans::up_axis::UpAxis;
 use cosfly_schema::flight_table::{ColumnKind, DeclaredColumn, MOST_ROWS, read_answer};
 use cosfly_schema::log::FrameTimes;
-use cosfly_splats::{SplatRenderer, SplatUpAxis, SplatView, SplatsConfig};
+use cosfly_splats::{SplatRenderer, SplatView, SplatsConfig};
 use cosfly_town::MapError;
 use cosfly_write::FramePackReader;
 use std::io::{Cursor, Write};
@@ -193,7 +194,7 @@ fn splats(bytes: &[u8]) {
         Ok(file) => file,
         Err(error) => return assert!(!error.hints.is_empty(), "{error}"),
     };
-    let config = SplatsConfig::new("", SplatUpAxis::Z);
+    let config = SplatsConfig::new("", UpAxis::Z);
     let placement = config.placement(DVec3::ZERO).expect("the plain place");
     let camera = Camera { width: 40, height: 20, horizontal_fov_rad: 1.5 };
     let pose = Pose::looking_at(DVec3::new(-4.0, 0.3, 1.0), DVec3::ZERO);

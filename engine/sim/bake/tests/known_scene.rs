@@ -12,7 +12,8 @@ use cosfly_maps::{MapConfig, read_town};
 use cosfly_models::mesh::{MeshConfig, TexturedMesh};
 use cosfly_render::{FrameSetup, Renderer, Scene, SceneMesh, SceneScan, SceneSplats};
 use cosfly_scans::tiles::{TilesChoice, join};
-use cosfly_splats::{Splat, SplatCloud, SplatRenderer, SplatUpAxis, SplatView, SplatsConfig};
+use cosfly_scans::up_axis::UpAxis;
+use cosfly_splats::{Splat, SplatCloud, SplatRenderer, SplatView, SplatsConfig};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -129,7 +130,7 @@ fn a_town_as_its_own_splats_has_its_depth_and_colours() {
     let splats: Vec<Splat> = baked(TEXEL_M).splats();
     let mut cloud = SplatCloud::new(0);
     splats.iter().for_each(|splat| cloud.push(splat));
-    let config = SplatsConfig::new("town.ply", SplatUpAxis::Z);
+    let config = SplatsConfig::new("town.ply", UpAxis::Z);
     let placement = config.placement(DVec3::ZERO).expect("a place");
     let known = Scene::new(&town(), SEED);
     let placed = SceneSplats::new(cloud.clone(), &config, DVec3::ZERO).expect("a place");

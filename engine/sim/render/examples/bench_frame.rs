@@ -15,7 +15,8 @@ use cosfly_figures::{BodyShape, Bystander, Walker};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
 use cosfly_maps::MapConfig;
 use cosfly_render::{FrameParts, FrameSetup, RenderConfig, Renderer, Scene, SceneScan, SceneSplats, Stages};
-use cosfly_splats::{SplatUpAxis, SplatsConfig, read};
+use cosfly_scans::up_axis::UpAxis;
+use cosfly_splats::{SplatsConfig, read};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -48,7 +49,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     if let Some(path) = &splats {
         let cloud = read(&std::fs::read(path)?)?.cloud;
         println!("{} splats", cloud.len());
-        let placed = SceneSplats::new(cloud, &SplatsConfig::new("", SplatUpAxis::Z), town.origin.offset_m);
+        let placed = SceneSplats::new(cloud, &SplatsConfig::new("", UpAxis::Z), town.origin.offset_m);
         let splats = Some(Arc::new(placed.map_err(|problem| problem.message)?));
         scene = scene.with_scan(SceneScan { splats, ..SceneScan::default() });
     }

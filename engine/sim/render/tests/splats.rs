@@ -6,7 +6,8 @@ use cosfly_domain::{Camera, FrameImages, TARGET_INSTANCE};
 use cosfly_figures::{BodyShape, Walker};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_render::{FrameSetup, Renderer, Scene, SceneScan, SceneSplats};
-use cosfly_splats::{Splat, SplatCloud, SplatUpAxis, SplatsConfig};
+use cosfly_scans::up_axis::UpAxis;
+use cosfly_splats::{Splat, SplatCloud, SplatsConfig};
 use std::sync::Arc;
 
 const CAMERA: Camera = Camera { width: 320, height: 180, horizontal_fov_rad: 1.2 };
@@ -17,7 +18,7 @@ fn scene() -> Scene {
 }
 
 fn config() -> SplatsConfig {
-    SplatsConfig::new("street.ply", SplatUpAxis::Z)
+    SplatsConfig::new("street.ply", UpAxis::Z)
 }
 
 fn cloud_of(splats: &[Splat]) -> SplatCloud {

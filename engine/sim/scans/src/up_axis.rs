@@ -7,14 +7,14 @@ use serde::{Deserialize, Serialize};
 /// Axis of a file that points up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum UpAxis {
-    /// y up, z towards the viewer: glTF, most OBJ files, scans of phones.
+    /// y up, z towards the viewer: glTF, most OBJ files, `.spz`, scans of phones.
     #[default]
     #[serde(rename = "y")]
     Y,
     /// z up: surveys.
     #[serde(rename = "z")]
     Z,
-    /// y down: programs that compute a place from photographs.
+    /// y down: programs that compute a place from photographs (COLMAP), and most trainers of splats.
     #[serde(rename = "-y")]
     MinusY,
 }

@@ -2,7 +2,8 @@
 
 use cosfly_domain::Camera;
 use cosfly_frames::{DVec3, Pose, Seed};
-use cosfly_splats::{MOST_COEFFICIENTS, Splat, SplatCloud, SplatRenderer, SplatUpAxis, SplatView, SplatsConfig, read};
+use cosfly_scans::up_axis::UpAxis;
+use cosfly_splats::{MOST_COEFFICIENTS, Splat, SplatCloud, SplatRenderer, SplatView, SplatsConfig, read};
 use std::time::Instant;
 
 const COUNT: usize = 1_000_000;
@@ -14,7 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         None => street(),
     };
     println!("{} splats in {:.2} s", cloud.len(), started.elapsed().as_secs_f64());
-    let config = SplatsConfig::new("", SplatUpAxis::Z);
+    let config = SplatsConfig::new("", UpAxis::Z);
     let placement = config.placement(DVec3::ZERO).map_err(|problem| problem.message)?;
     let camera = Camera { width: 1280, height: 720, horizontal_fov_rad: std::f64::consts::FRAC_PI_2 };
     for (name, from, to) in [

@@ -26,7 +26,7 @@ mod write;
 
 pub use cloud::SplatCloud;
 pub use error::SplatError;
-pub use placement::{ControlPoint, Placement, SplatUpAxis, SplatsConfig, SplatsProblem};
+pub use placement::{ControlPoint, Placement, SplatsConfig, SplatsProblem};
 pub use read::{MOST_SPLATS, SplatFile, read};
 pub use renderer::{SplatPicture, SplatRenderer};
 pub use splat::{MOST_COEFFICIENTS, Splat};

@@ -1,33 +1,9 @@
 //! Parameters of splats in a recipe, and their place in the world: up, scale, turn and origin, or two measured points.
 
 use cosfly_frames::{DMat3, DVec2, DVec3, real};
+use cosfly_scans::up_axis::UpAxis;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-/// Axis of a file of splats that points up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub enum SplatUpAxis {
-    /// y up, as in `.spz` files.
-    #[serde(rename = "y")]
-    Y,
-    /// y down, as trainers leave scenes of COLMAP.
-    #[serde(rename = "-y")]
-    MinusY,
-    /// z up, as in point clouds.
-    #[serde(rename = "z")]
-    Z,
-}
-
-impl SplatUpAxis {
-    /// A point of the file in the map frame: right-handed, x to the east, y to the north, z up.
-    fn in_map(self, [x, y, z]: [f64; 3]) -> DVec3 {
-        match self {
-            Self::Y => DVec3::new(x, -z, y),
-            Self::MinusY => DVec3::new(x, z, -y),
-            Self::Z => DVec3::new(x, y, z),
-        }
-    }
-}
 
 /// A point that was measured in the splats and in the map.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -46,7 +22,7 @@ pub struct SplatsConfig {
     /// Path of a `.ply`, `.spz` or `.splat` file, relative to the recipe.
     pub source: String,
     /// Axis of the file that points up: `y`, `-y` or `z`.
-    pub up_axis: SplatUpAxis,
+    pub up_axis: UpAxis,
     /// Length of the file's unit, metres, 0.0001 to 10,000. Default: 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0001, max = 10_000.0))]
@@ -98,7 +74,7 @@ const FARTHEST: f64 = 1e7;
 
 impl SplatsConfig {
     /// A file whose numbers are those of the map's file.
-    pub fn new(source: impl Into<String>, up_axis: SplatUpAxis) -> Self {
+    pub fn new(source: impl Into<String>, up_axis: UpAxis) -> Self {
         Self {
             source: source.into(),
             up_axis,
@@ -141,7 +117,7 @@ impl SplatsConfig {
             let message = "two measured points already say scale, turn and origin".to_owned();
             return problem("points", message, "leave out `unit_m`, `turn_deg` and `origin_m`, or `points`");
         }
-        let [a, b] = points.map(|point| (self.up_axis.in_map(point.file), DVec3::from_array(point.map_m)));
+        let [a, b] = points.map(|point| (self.up_axis.in_map(point.file.into()), DVec3::from_array(point.map_m)));
         let (of_file, of_map) = (b.0 - a.0, b.1 - a.1);
         let flat = |way: DVec3| DVec2::new(way.x, way.y).length();
         // The turn is that of the points in plan: they must lie beside each other, not above.
@@ -164,11 +140,11 @@ impl SplatsConfig {
 }
 
 impl Placement {
-    fn new(up: SplatUpAxis, (unit_m, turn_rad): (f64, f64), origin_in_map: DVec3, world_origin_m: DVec3) -> Self {
+    fn new(up: UpAxis, (unit_m, turn_rad): (f64, f64), origin_in_map: DVec3, world_origin_m: DVec3) -> Self {
         let (sin, cos) = real::sin_cos(turn_rad);
         let in_world = |point: DVec3| DVec3::new(point.x, -point.y, point.z);
         let axis = |of_file: [f64; 3]| {
-            let DVec3 { x, y, z } = up.in_map(of_file);
+            let DVec3 { x, y, z } = up.in_map(of_file.into());
             unit_m * in_world(DVec3::new(x * cos - y * sin, x * sin + y * cos, z))
         };
         let world_from_file = DMat3::from_cols(axis([1.0, 0.0, 0.0]), axis([0.0, 1.0, 0.0]), axis([0.0, 0.0, 1.0]));
@@ -198,7 +174,7 @@ mod tests {
     use super::*;
 
     fn plain() -> SplatsConfig {
-        SplatsConfig::new("street.ply", SplatUpAxis::Z)
+        SplatsConfig::new("street.ply", UpAxis::Z)
     }
 
     #[test]
@@ -206,7 +182,7 @@ mod tests {
         let placement = plain().placement(DVec3::new(10.0, -20.0, 0.0)).expect("a place");
         // 12 east, 25 north, 3 up: 2 ahead of the world's origin and 5 to its left.
         assert_eq!(placement.in_world(DVec3::new(12.0, 25.0, 3.0)), DVec3::new(2.0, -5.0, 3.0));
-        let down = SplatsConfig { up_axis: SplatUpAxis::MinusY, unit_m: Some(2.0), ..plain() };
+        let down = SplatsConfig { up_axis: UpAxis::MinusY, unit_m: Some(2.0), ..plain() };
         let placement = down.placement(DVec3::ZERO).expect("a place");
         assert_eq!(placement.in_world(DVec3::new(1.0, -4.0, 3.0)), DVec3::new(2.0, -6.0, 8.0));
     }
@@ -214,7 +190,7 @@ mod tests {
     #[test]
     fn two_measured_points_say_scale_turn_and_origin() {
         let known = SplatsConfig {
-            up_axis: SplatUpAxis::Y,
+            up_axis: UpAxis::Y,
             unit_m: Some(2.5),
             turn_deg: Some(70.0),
             origin_m: Some([100.0, -30.0, 2.0]),
@@ -226,8 +202,7 @@ mod tests {
             ControlPoint { file, map_m: [there.x, -there.y, there.z] }
         };
         let points = Some([measured([0.0, 1.0, 2.0]), measured([9.0, 0.5, -4.0])]);
-        let found =
-            SplatsConfig { up_axis: SplatUpAxis::Y, points, ..plain() }.placement(DVec3::ZERO).expect("a place");
+        let found = SplatsConfig { up_axis: UpAxis::Y, points, ..plain() }.placement(DVec3::ZERO).expect("a place");
         for point in [DVec3::ZERO, DVec3::new(3.0, -8.0, 11.0)] {
             assert!((found.in_world(point) - known.in_world(point)).length() < 1e-9);
             assert!((found.in_file(found.in_world(point)) - point).length() < 1e-9);

@@ -133,13 +133,14 @@ impl SplatRenderer {
 mod tests {
     use super::*;
     use crate::exact::{self, ExactPixel};
-    use crate::placement::{Placement, SplatUpAxis, SplatsConfig};
+    use crate::placement::{Placement, SplatsConfig};
     use crate::splat::{MOST_COEFFICIENTS, Splat};
     use cosfly_domain::Camera;
     use cosfly_frames::{DVec3, Pose, Seed};
+    use cosfly_scans::up_axis::UpAxis;
 
     fn placement() -> Placement {
-        let plain = SplatsConfig::new("", SplatUpAxis::MinusY);
+        let plain = SplatsConfig::new("", UpAxis::MinusY);
         let config = SplatsConfig { unit_m: Some(1.7), turn_deg: Some(20.0), ..plain };
         config.placement(DVec3::ZERO).expect("a place")
     }
@@ -224,7 +225,7 @@ mod tests {
         let level =
             |depth: f32, srgb| Splat::plain([0.0, 0.0, depth], [2.0, 2.0, 0.01], [1.0, 0.0, 0.0, 0.0], 0.75, srgb);
         let cloud = cloud_of(&[level(0.0, [1.0, 0.0, 0.0]), level(-3.0, [0.0, 1.0, 0.0])], 0);
-        let config = SplatsConfig::new("", SplatUpAxis::Z);
+        let config = SplatsConfig::new("", UpAxis::Z);
         let camera = Camera { width: 20, height: 20, horizontal_fov_rad: 0.2 };
         let above = Pose::looking_at(DVec3::new(0.0, 0.0, 5.0), DVec3::ZERO);
         let view = SplatView::new(&camera, &above, &config.placement(DVec3::ZERO).expect("a place"), true);
