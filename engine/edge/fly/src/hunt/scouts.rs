@@ -1,5 +1,6 @@
 //! [`scout`]: baselines that fly every candidate before the policy does: they cost little, and where they have trouble others have, too.
 
+use super::hidden_views::hidden_views;
 use super::pool::Pool;
 use crate::crew::{EpisodeOutcome, Shifts, crew};
 use crate::flight::{Attempt, Latency, Row, fly};
@@ -21,9 +22,15 @@ const SCOUTS: [&str; 7] = [
 ];
 /// Features of a scout.
 const FEATURES: usize = 2;
+/// Weight of the share of hidden views in the first guess, where that of all scouts together is 1.
+const HIDDEN_VIEWS: f64 = 0.25;
 
-/// Number of features that come from scouts.
-pub const TOLD: usize = SCOUTS.len() * FEATURES;
+/// Weights of the features in the first guess, before a flight: all scouts' features alike, hidden views, nothing for drawn values.
+pub fn first_weights(features: usize) -> Vec<f64> {
+    let told = SCOUTS.len() * FEATURES;
+    let weights = std::iter::repeat_n(1.0 / told as f64, told).chain([HIDDEN_VIEWS]).chain(std::iter::repeat(0.0));
+    weights.take(features).collect()
+}
 
 /// How candidates are flown.
 pub struct Scouting<'a> {
@@ -43,7 +50,7 @@ pub fn failed(row: &Row) -> bool {
 }
 
 /// What is known of each candidate before the policy flies it, numbers of 0..=1: for each scout its share of steps without the target and
-/// whether it failed, then the drawn values. `None` where the expert has no success. `progress` gets the numbers of finished and of all.
+/// whether it failed, then the share of hidden views around the target, then the drawn values. `None` where the expert has no success. `progress` gets the numbers of finished and of all.
 ///
 /// # Errors
 /// `fly-stopped`.
@@ -69,6 +76,7 @@ pub fn scout(pool: &Pool, order: &Scouting<'_>, progress: &dyn Fn(u64, u64)) -> 
             }
             features.extend([1.0 - flown.row.score.tracking_rate(), f64::from(u8::from(failed(&flown.row)))]);
         }
+        features.push(hidden_views(&task.episode));
         features.extend(&pool.draws[task.part].places);
         told[at].get_or_init(|| Some(features));
         Ok(EpisodeOutcome::Kept)

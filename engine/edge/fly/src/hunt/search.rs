@@ -2,7 +2,7 @@
 
 use super::guess::Guess;
 use super::pool::Pool;
-use super::scouts::{TOLD, failed};
+use super::scouts::{failed, first_weights};
 use crate::crew::{EpisodeOutcome, Shifts, crew};
 use crate::flight::{Attempt, Latency, fly};
 use crate::pilot::{Asked, FirstAnswer};
@@ -56,12 +56,12 @@ pub fn hunt(
     let first = FirstAnswer::default();
     let mut hunted = Hunted { left_out: told.iter().filter(|told| told.is_none()).count(), ..Hunted::default() };
     let budget = budget.min(told.len());
-    let features = told.iter().flatten().map(Vec::len).next().unwrap_or(TOLD);
+    let first_weights = first_weights(told.iter().flatten().map(Vec::len).next().unwrap_or(0));
     loop {
         progress(hunted.flown.len() as u64, budget as u64);
         let count = ROUND.min(budget - hunted.flown.len());
         let round = match search {
-            Search::Likeliest => next(pool, told, &hunted.flown, features, count),
+            Search::Likeliest => next(pool, told, &hunted.flown, &first_weights, count),
             Search::Random(seed) => {
                 shuffled(told.len(), seed).into_iter().skip(hunted.flown.len()).take(count).collect()
             }
@@ -107,10 +107,16 @@ fn shuffled(all: usize, seed: u64) -> Vec<usize> {
 }
 
 /// The likeliest failures among the candidates, each of another walk.
-fn next(pool: &Pool, told: &[Option<Vec<f64>>], flown: &[(usize, bool)], features: usize, count: usize) -> Vec<usize> {
+fn next(
+    pool: &Pool,
+    told: &[Option<Vec<f64>>],
+    flown: &[(usize, bool)],
+    first_weights: &[f64],
+    count: usize,
+) -> Vec<usize> {
     let known: Vec<(&[f64], bool)> =
         flown.iter().filter_map(|(at, failed)| Some((told[*at].as_deref()?, *failed))).collect();
-    let guess = Guess::of(&known, TOLD, features);
+    let guess = Guess::of(&known, first_weights);
     let before: BTreeSet<usize> = flown.iter().map(|(at, _)| *at).collect();
     let mut walks: BTreeSet<(usize, &str)> =
         flown.iter().filter(|(_, failed)| *failed).map(|(at, _)| pool.walk(*at)).collect();
