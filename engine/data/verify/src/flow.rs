@@ -30,6 +30,24 @@ impl StandingPoints {
         Self { frame, points }
     }
 
+    /// Pixels, their places in the frame beside and their depths there; none of a rolling shutter, whose rows are of other moments, and
+    /// none where there is no such frame.
+    pub fn ends(
+        &self,
+        flight: &PlacedFlight,
+        frames: &[PlacedFrame],
+        (frame, to): (usize, FlowTo),
+    ) -> Vec<(usize, (f64, f64), f64)> {
+        let here = frames.get(frame).filter(|_| self.frame == frame && flight.readout_s == 0.0);
+        let Some((here, beside)) = here.zip(beside(frames, frame, to)) else { return vec![] };
+        let poses = (&here.camera_pose, &beside.camera_pose);
+        let end = |&(pixel, depth_m): &(usize, f64)| {
+            let way = way_of(flight, poses, pixel, depth_m)?;
+            Some((pixel, way.to, way.ahead_m))
+        };
+        self.points.iter().filter_map(end).collect()
+    }
+
     /// What is wrong with the flow or the mask of `frames[frame]`.
     pub fn finding(
         &self,
@@ -39,11 +57,7 @@ impl StandingPoints {
         stored: &[u8],
     ) -> Option<String> {
         let (ChannelSource::Flow(to) | ChannelSource::FlowValid(to)) = channel.source else { return None };
-        let beside = match to {
-            FlowTo::Previous => frame.checked_sub(1).and_then(|before| frames.get(before)),
-            FlowTo::Next => frames.get(frame + 1),
-        };
-        let Some(beside) = beside else {
+        let Some(beside) = beside(frames, frame, to) else {
             let all_are_0 = stored.iter().all(|byte| *byte == 0);
             return (!all_are_0).then(|| "there is no frame beside it, and not all of it is 0".into());
         };
@@ -69,8 +83,29 @@ impl StandingPoints {
     }
 }
 
+/// The frame beside one of a film.
+fn beside(frames: &[PlacedFrame], frame: usize, to: FlowTo) -> Option<&PlacedFrame> {
+    match to {
+        FlowTo::Previous => frame.checked_sub(1).and_then(|before| frames.get(before)),
+        FlowTo::Next => frames.get(frame + 1),
+    }
+}
+
+/// Way of a point on the finished picture.
+struct Way {
+    from: (f64, f64),
+    to: (f64, f64),
+    /// Depth at its end, metres; infinite for the sky.
+    ahead_m: f64,
+}
+
+fn flow_px(flight: &PlacedFlight, poses: (&Pose, &Pose), pixel: usize, depth_m: f64) -> Option<[f64; 2]> {
+    let Way { from, to, .. } = way_of(flight, poses, pixel, depth_m)?;
+    Some([to.0 - from.0, to.1 - from.1])
+}
+
 /// Way on the picture of the standing point that a pixel shows; none where it is not before the other camera, or out of the lens's reach.
-fn flow_px(flight: &PlacedFlight, (here, beside): (&Pose, &Pose), pixel: usize, depth_m: f64) -> Option<[f64; 2]> {
+fn way_of(flight: &PlacedFlight, (here, beside): (&Pose, &Pose), pixel: usize, depth_m: f64) -> Option<Way> {
     let camera = &flight.camera;
     let (row, column) = (pixel / camera.width as usize, pixel % camera.width as usize);
     // Through a lens, a pixel shows the nearest pixel centre of the ideal picture, told in steps of 1/256 pixel.
@@ -90,5 +125,5 @@ fn flow_px(flight: &PlacedFlight, (here, beside): (&Pose, &Pose), pixel: usize, 
     let (centre_u, centre_v, focal_px) = camera.centre_and_focal_px();
     let bend = |u: f64, v: f64| flight.lens.bend(camera, (u, v));
     let (from, to) = (bend(u, v), bend(centre_u + focal_px * y / x, centre_v - focal_px * z / x));
-    Some([to.0 - from.0, to.1 - from.1])
+    Some(Way { from, to, ahead_m: if depth_m.is_finite() { x } else { f64::INFINITY } })
 }

@@ -3,14 +3,13 @@
 use super::bodies::PlacedBody;
 use super::body::Body;
 use super::captions::Caption;
-use super::disparity::KnownDepths;
-use super::flow::StandingPoints;
 use super::ground::BodiesOnGround;
+use super::on_request::{KnownFrame, OnRequest, edges};
 use super::report::VerifyReport;
 use super::rows::{PlacedFlight, PlacedFrame};
 use ::mcap::records::Record;
 use cosfly_diagnose::{Stop, counted};
-use cosfly_domain::channels::{ChannelSource, Element, depth};
+use cosfly_domain::channels::{ChannelSource, Element, depth, flow};
 use cosfly_domain::{Channel, ChannelSet, SemanticLabel, TARGET_INSTANCE, channels};
 use cosfly_frames::{DQuat, DVec3};
 use cosfly_read::read_records;
@@ -72,8 +71,7 @@ pub fn check(
         depth: None,
         labels: None,
         on_ground: BodiesOnGround::default(),
-        standing: StandingPoints::default(),
-        disparities: KnownDepths::default(),
+        on_request: OnRequest::default(),
         is_ours: false,
     };
     let mut input = known.stop.reading(BufReader::new(input));
@@ -104,9 +102,8 @@ struct LogCheck<'a> {
     /// The last label image and its frame, likewise.
     labels: Option<(usize, messages::RawImage)>,
     on_ground: BodiesOnGround,
-    /// Points of the last frame whose flow is known.
-    standing: StandingPoints,
-    disparities: KnownDepths,
+    /// What the last frame's other pictures are compared with.
+    on_request: OnRequest,
     is_ours: bool,
 }
 
@@ -187,19 +184,19 @@ impl LogCheck<'_> {
     ) {
         match channel.source {
             ChannelSource::Ids => {
-                let (of_target, problem) = self.bodies_in(&image, row);
+                let ids = ids_of(&image);
+                let (of_target, problem) = self.bodies_in(&ids, row);
                 if let Some(message) = problem {
                     self.find(place, "verify-log", message);
                 }
                 let labels = self.labels.take().filter(|(of, _)| *of == frame);
                 if let Some((_, depth)) = self.depth.take().filter(|(of, _)| *of == frame) {
-                    self.disparities = KnownDepths::of(self.flight, frame, &depth.data);
                     self.check_depth(&depth, &of_target, row);
-                    self.find_standing(frame, &depth, &image);
-                    if let Some((_, labels)) = labels {
+                    if let Some((_, labels)) = &labels {
                         let pixels = [&depth.data[..], &labels.data[..]];
                         self.on_ground.add(self.flight, row, self.known.others_in(row.frame), pixels);
                     }
+                    self.begin_others(frame, (&depth, labels.as_ref().map(|(_, it)| &it.data[..])), &ids, of_target);
                 }
             }
             ChannelSource::Labels => {
@@ -213,28 +210,36 @@ impl LogCheck<'_> {
                 let mut pixels = image.data.chunks_exact(channel.bytes_on_request());
                 if let Some(at) = pixels.position(|pixel| !(channel.is_value)(pixel)) {
                     self.find(place, "verify-pixels", format!("pixel {at} holds no value of `{}`", channel.name));
-                } else if let Some(message) = self.amodal_problem(channel, &image, row) {
-                    self.find(place, "verify-pixels", message);
-                } else if let Some(message) = self.disparities.finding(self.flight, (frame, channel), &image.data) {
-                    self.find(place, "verify-disparity", message);
-                } else if let Some(message) =
-                    self.standing.finding(self.flight, self.frames, (frame, channel), &image.data)
-                {
-                    self.find(place, "verify-flow", message);
+                } else {
+                    let (known, width) = ((self.flight, self.frames), image.width as usize);
+                    if let Some((rule, message)) = self.on_request.finding(known, (frame, channel), &image.data, width)
+                    {
+                        self.find(place, rule, message);
+                    }
                 }
             }
         }
     }
 
-    /// What is wrong with the mask of the target without obstacles.
-    fn amodal_problem(&self, channel: &Channel, image: &messages::RawImage, row: &PlacedFrame) -> Option<String> {
-        if !matches!(channel.source, ChannelSource::TargetAlone) {
-            return None;
+    /// Goes on to a frame: what its pictures on request are compared with.
+    fn begin_others(
+        &mut self,
+        frame: usize,
+        (depth, labels): (&messages::RawImage, Option<&[u8]>),
+        ids: &[u32],
+        of_target: Vec<usize>,
+    ) {
+        let is_flow =
+            |channel: &&&Channel| matches!(channel.source, ChannelSource::Flow(_) | ChannelSource::FlowValid(_));
+        let is_logged = |channel: &Channel| self.topics.values().any(|topic| *topic == topic::images(channel));
+        let objects = self.known.objects;
+        let has_flow = objects.is_some() && channels::ALL.iter().filter(is_flow).any(|channel| is_logged(channel));
+        let stands = |id: u32| id == 0 || objects.is_some_and(|ids| ids.contains(&id));
+        let known = KnownFrame { frame, depths: &depth.data, labels, ids, of_target, has_flow, stands: &stands };
+        if let Some(message) = self.on_request.begin(self.flight, &self.frames[frame], known) {
+            let place = format!("`{}` frame {}", topic::images(&flow::FORWARD_VALID), frame.saturating_sub(1));
+            self.find(place, "verify-flow", message);
         }
-        let pixels: Vec<usize> = (0..image.data.len()).filter(|at| image.data[*at] != 0).collect();
-        let found = edges(&pixels, image.width as usize);
-        (found != row.full_box())
-            .then(|| format!("its pixels lie in {found:?}; `full_box_px` of table `frames` is {:?}", row.full_box()))
     }
 
     fn camera_problem(&self, data: &[u8]) -> Option<String> {
@@ -253,12 +258,8 @@ impl LogCheck<'_> {
 
     /// The target's pixels in the instance image; and what is wrong with them or with those of others against counts and
     /// boxes of the tables, or ids that are of no object.
-    fn bodies_in(&self, image: &messages::RawImage, row: &PlacedFrame) -> (Vec<usize>, Option<String>) {
+    fn bodies_in(&self, ids: &[u32], row: &PlacedFrame) -> (Vec<usize>, Option<String>) {
         let width = self.flight.camera.width as usize;
-        let ids: Vec<u32> = match image.encoding == "32UC1" {
-            true => image.data.as_chunks().0.iter().map(|id| u32::from_le_bytes(*id)).collect(),
-            false => image.data.as_chunks().0.iter().map(|id| u16::from_le_bytes(*id).into()).collect(),
-        };
         let mut pixels: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
         let mut start = 0;
         for run in ids.chunk_by(|a, b| a == b) {
@@ -298,23 +299,6 @@ impl LogCheck<'_> {
             )
         });
         (of_target, problem)
-    }
-
-    /// Keeps points of what stands, where the log has a flow to compare with.
-    fn find_standing(&mut self, frame: usize, depth: &messages::RawImage, ids: &messages::RawImage) {
-        let is_flow = |channel: &&&Channel| matches!(channel.source, ChannelSource::Flow(_));
-        let is_logged = |channel: &Channel| self.topics.values().any(|topic| *topic == topic::images(channel));
-        if !channels::ALL.iter().filter(is_flow).any(|channel| is_logged(channel)) {
-            return;
-        }
-        let Some(objects) = self.known.objects else { return };
-        let bytes = if ids.encoding == "32UC1" { 4 } else { 2 };
-        let id = |pixel: usize| {
-            let stored = ids.data.get(bytes * pixel..bytes * (pixel + 1))?;
-            Some(stored.iter().rev().fold(0u32, |sum, byte| sum << 8 | u32::from(*byte)))
-        };
-        let stands = |pixel: usize| id(pixel).is_some_and(|id| id == 0 || objects.contains(&id));
-        self.standing = StandingPoints::of(frame, &depth.data, stands);
     }
 
     /// Labels by their number alone: they come before the ids, which say whose pixels are whose.
@@ -407,13 +391,12 @@ impl LogCheck<'_> {
 
 const UNREADABLE: &str = "the message cannot be read or has another size";
 
-/// Edges around pixels of an image that is `width` wide.
-fn edges(pixels: &[usize], width: usize) -> Option<[f64; 4]> {
-    let columns = || pixels.iter().map(|at| at % width);
-    let rows = || pixels.iter().map(|at| at / width);
-    let (left, top) = (columns().min()?, rows().min()?);
-    let (right, bottom) = (columns().max()? + 1, rows().max()? + 1);
-    Some([left as f64, top as f64, right as f64, bottom as f64])
+/// Instance ids of an image.
+fn ids_of(image: &messages::RawImage) -> Vec<u32> {
+    match image.encoding == "32UC1" {
+        true => image.data.as_chunks().0.iter().map(|id| u32::from_le_bytes(*id)).collect(),
+        false => image.data.as_chunks().0.iter().map(|id| u16::from_le_bytes(*id).into()).collect(),
+    }
 }
 
 fn pose_problem(data: &[u8], row: &PlacedFrame) -> Option<String> {
