@@ -31,6 +31,8 @@ pub struct PlacedBody {
     kind: Option<BodyKind>,
     /// Length, width and height, metres.
     pub size_m: DVec3,
+    /// Heading, radians.
+    pub heading_rad: f64,
     /// Place of the body, and the space that it may fill.
     pub space: Body,
 }
@@ -137,6 +139,7 @@ impl BodiesIndex {
                     body_id: rows.get(Bodies::body_id, row)?,
                     kind,
                     size_m: DVec3::new(length_m, width_m, height_m),
+                    heading_rad: rows.get(Bodies::heading_deg, row)?.to_radians(),
                     space: Body {
                         feet: DVec3::from_array(rows.get(Bodies::feet_in_world_m, row)?),
                         height_m,

@@ -15,6 +15,7 @@ use cosfly_schema::log::cloud::{COLUMN, CloudPoint, POINT_BYTES, POSE};
 use cosfly_schema::log::reading::TOPICS;
 use cosfly_schema::tables::{self, Objects, kind_name};
 use cosfly_sensors::SmoothFlight;
+use cosfly_sensors::lidar::reflectivity;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -40,6 +41,8 @@ struct Boxes {
     solid: BoxBvh,
     /// All boxes by their instance id.
     things: BTreeMap<u32, Vec<OrientedBox>>,
+    /// Labels of an instance id, cars among them.
+    labels: BTreeMap<u32, Vec<u8>>,
 }
 
 /// Kinds whose things may be drawn of parts that rays pass between: boats and things to play on are of kind `static`.
@@ -90,7 +93,7 @@ impl Boxes {
             }
         });
         let solid = BoxBvh::build(solid.filter(|shape| shape.half_extents_m.min_element() > 0.0).collect());
-        Self { solid, things }
+        Self { solid, things, labels: BTreeMap::new() }
     }
 }
 
@@ -137,6 +140,7 @@ pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
 /// Boxes of each town; damage of the table is reported elsewhere.
 fn boxes_of_towns(flights: &Flights<'_>) -> BTreeMap<String, Boxes> {
     let mut found: BTreeMap<String, Vec<(u32, Filled, OrientedBox)>> = BTreeMap::new();
+    let mut labels: BTreeMap<String, BTreeMap<u32, Vec<u8>>> = BTreeMap::new();
     for file in flights.files.sound_below("data/objects/") {
         let _ = rows::read(&flights.folder.join(file), &tables::of_objects(), &mut |rows| {
             for row in 0..rows.len() {
@@ -146,16 +150,23 @@ fn boxes_of_towns(flights: &Flights<'_>) -> BTreeMap<String, Boxes> {
                     half_extents_m: 0.5 * DVec3::from_array(rows.get(Objects::size_m, row)?),
                     yaw_rad: rows.get(Objects::yaw_deg, row)?.to_radians(),
                 };
-                let label = rows.get(Objects::label, row)?;
+                let (label, instance) = (rows.get(Objects::label, row)?, rows.get(Objects::instance, row)?);
+                let own: &mut Vec<u8> =
+                    labels.entry(rows.get(Objects::town, row)?).or_default().entry(instance).or_default();
+                own.push(label.id());
                 if label != SemanticLabel::Car {
                     let filled = Filled::of(label, &rows.get(Objects::kind, row)?);
-                    list.push((rows.get(Objects::instance, row)?, filled, shape));
+                    list.push((instance, filled, shape));
                 }
             }
             Ok(())
         });
     }
-    found.into_iter().map(|(town, list)| (town, Boxes::new(&list))).collect()
+    let boxes = |(town, list): (String, Vec<(u32, Filled, OrientedBox)>)| {
+        let labels = labels.remove(&town).unwrap_or_default();
+        (town, Boxes { labels, ..Boxes::new(&list) })
+    };
+    found.into_iter().map(boxes).collect()
 }
 
 /// Gives the sweeps of each flight of a file; none where it has no clouds.
@@ -272,6 +283,7 @@ fn finding(sweeps: &[Sweep], poses: &[Pose], dt_s: f64, boxes: &Boxes) -> Result
     let arm = body_from_world * (first.position - start.position_in_world);
     let body_from_sensor = body_from_world * first.world_from_sensor;
     for (number, sweep) in sweeps.iter().enumerate() {
+        surface_problem(sweep, boxes).map_err(|message| format!("sweep {number}, at {} s: {message}", sweep.time_s))?;
         let (mut cast, mut wrong, mut worst) = (0, 0, None);
         for (place, point) in sweep.points.iter().enumerate().skip(number % ONE_OF).step_by(ONE_OF) {
             let airframe = smooth.at((sweep.time_s + f64::from(point.time_s)) / dt_s);
@@ -285,7 +297,7 @@ fn finding(sweeps: &[Sweep], poses: &[Pose], dt_s: f64, boxes: &Boxes) -> Result
                 worst.get_or_insert((place, range_m));
             }
         }
-        if let Some((place, range_m)) = worst.filter(|_| f64::from(wrong) > 1.0 + ALLOWED_SHARE * f64::from(cast)) {
+        if let Some((place, range_m)) = worst.filter(|_| exceeds(wrong, cast)) {
             return Err(format!(
                 "sweep {number}, at {} s: {wrong} of {cast} points that were cast again are not where their rays meet the town; \
                  the first is point {place}, {range_m:.2} m away",
@@ -294,6 +306,40 @@ fn finding(sweeps: &[Sweep], poses: &[Pose], dt_s: f64, boxes: &Boxes) -> Result
         }
     }
     Ok(())
+}
+
+/// Points have the labels of their things, and send back no more light than the material does.
+fn surface_problem(sweep: &Sweep, boxes: &Boxes) -> Result<(), String> {
+    let is_other = |(_, point): &(usize, &CloudPoint)| {
+        let known = boxes.labels.get(&point.instance);
+        known.is_some_and(|known| !known.iter().any(|label| u16::from(*label) == point.label))
+    };
+    let wrong: Vec<_> = sweep.points.iter().enumerate().filter(is_other).collect();
+    if let Some((place, point)) = wrong.first().filter(|_| exceeds(wrong.len(), sweep.points.len())) {
+        let (label, instance) = (point.label, point.instance);
+        return Err(format!(
+            "{} have labels that their things do not have; the first is point {place}, label {label} of id {instance}",
+            counted(wrong.len(), "point")
+        ));
+    }
+    let is_bright = |(_, point): &(usize, &CloudPoint)| {
+        let most = u8::try_from(point.label).map_or(1.0, reflectivity);
+        !(0.0..=most + 1e-3).contains(&f64::from(point.intensity))
+    };
+    match sweep.points.iter().enumerate().find(is_bright) {
+        Some((place, point)) => Err(format!(
+            "point {place} has an intensity of {}; surfaces with label {} send back at most {}",
+            point.intensity,
+            point.label,
+            u8::try_from(point.label).map_or(1.0, reflectivity)
+        )),
+        None => Ok(()),
+    }
+}
+
+/// Whether so many of the points of a sweep are more than may be wrong.
+fn exceeds(wrong: usize, all: usize) -> bool {
+    wrong as f64 > 1.0 + ALLOWED_SHARE * all as f64
 }
 
 /// Whether a ray meets a thing at a range, and nothing solid before it.

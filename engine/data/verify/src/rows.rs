@@ -6,9 +6,11 @@ use arrow_array::cast::AsArray;
 use arrow_array::types::{Float32Type, Float64Type};
 use arrow_schema::DataType;
 use cosfly_diagnose::Diagnostic;
+use cosfly_domain::MapOrigin;
 use cosfly_frames::{DVec3, Pose, action};
 use cosfly_read::{FrameRow, PublishedFlight, Rows, Shared, TableFile};
 use cosfly_schema::tables::{self, DatasetItem, FileRecord, Files, Frames, Kind, Table, Trajectories, Waypoints};
+use cosfly_sensors::GeoOrigin;
 use std::ops::Deref;
 use std::path::Path;
 use std::sync::Arc;
@@ -120,6 +122,8 @@ pub struct PlacedFlight {
     pub mcap_messages: u64,
     /// Sums over the frames, and limits.
     pub figures: Figures,
+    /// Place of its world on the globe.
+    pub origin: GeoOrigin,
     flight: PublishedFlight,
 }
 
@@ -160,6 +164,11 @@ pub fn flights(
                 place: (Arc::clone(&name), number),
                 mcap_messages: rows.get(Trajectories::mcap_messages, row)?,
                 figures: Figures::read(rows, row)?,
+                origin: GeoOrigin::of(&MapOrigin {
+                    offset_m: flight.town_offset_m,
+                    geo_reference: rows.get(Trajectories::town_geo_reference, row)?,
+                    added_by_file_m: DVec3::ZERO,
+                }),
                 flight,
             };
             visit(placed, (rows.get(Trajectories::mcap_bytes, row)?, rows.get(Trajectories::mcap_sha256, row)?));

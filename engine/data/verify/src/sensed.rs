@@ -1,14 +1,20 @@
 //! Tables of sensors of motion against the poses of their flights, and what was measured against the truth beside it.
 
 use crate::flights::Flights;
+use crate::readings::{self, Carrying, LONGEST_ARM_M};
 use crate::report::VerifyReport;
-use arrow_array::RecordBatch;
+use crate::rows;
+use crate::sensed_rows::SensedRows;
 use arrow_array::cast::AsArray;
-use arrow_array::types::{Float64Type, Int64Type};
 use arrow_schema::ArrowError;
-use cosfly_frames::{DMat3, DQuat, DVec3, Pose, real};
+use cosfly_diagnose::counted;
+use cosfly_domain::OrientedBox;
+use cosfly_frames::{DMat3, DVec3, Pose, real};
+use cosfly_geometry::BoxBvh;
+use cosfly_read::LogReader;
 use cosfly_schema::extras::is_taken;
-use cosfly_schema::log::reading::TRUE;
+use cosfly_schema::log::reading::{LoggedSensor, TOPICS, TRUE};
+use cosfly_schema::tables::{self, Objects};
 use parquet::arrow::ProjectionMask;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use std::collections::BTreeMap;
@@ -17,8 +23,6 @@ use std::path::Path;
 
 /// Acceleration of free fall, m/s^2.
 const GRAVITY_MPS2: f64 = 9.81;
-/// Longest arm from the drone to a sensor, metres: the corner of the places that recipes allow.
-const LONGEST_ARM_M: f64 = 17.4;
 /// Longest step between inertial readings that can be added up, seconds.
 const LONGEST_STEP_S: f64 = 0.02;
 /// Errors allowed of what inertial readings add up to from one frame to the next: metres, m/s, radians.
@@ -39,30 +43,45 @@ const NOISE: [(&str, &str, f64, f64); 6] = [
 /// Root mean square of a receiver's errors of position for a dilution of 1, metres.
 const RECEIVER_M: f64 = 15.0;
 
-/// Readings of a sensor along one flight.
-#[derive(Clone, Debug, Default)]
-pub struct SensedRows {
-    frames: Vec<i64>,
-    times_s: Vec<f64>,
-    numbers: BTreeMap<String, Vec<f64>>,
-}
-
-/// Checks every table that has true columns.
+/// Checks every table that has true columns, and those that a log has as a sensor's.
 pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
+    let mut towns = None;
     for file in flights.files.sound_below("data/") {
-        if file.split('/').nth(1).is_none_or(is_taken) {
-            continue;
-        }
-        let read = each_flight(&flights.folder.join(file), &mut |id, rows| {
+        let Some(table) = file.split('/').nth(1).filter(|table| !is_taken(table)) else { continue };
+        let read = each_flight(&flights.folder.join(file), &mut |id, rows, has_truth| {
             let Some(number) = flights.tables.flights.number(id).filter(|number| flights.wanted.has(*number)) else {
                 return;
             };
+            let flight = flights.tables.flights.at(number);
+            // A log that cannot be opened is found elsewhere.
+            let log = LogReader::open(&flights.folder.join(&flight.mcap_path), flight.times()).ok();
+            let is_of_log = |log: &LogReader| log.sensors().into_iter().find(|sensor| sensor.name == table);
+            let logged = log.and_then(|log| Some((is_of_log(&log)?, log)));
+            if !has_truth && logged.is_none() {
+                return;
+            }
+            let begins_s = flight.times().s(0);
+            let in_log = logged.map_or(Ok(()), |(sensor, mut log)| {
+                compare(rows, &sensor, &log.readings(&sensor).map_err(|error| error.to_string())?)
+            });
+            if let Err(message) = in_log {
+                report.find(&flight.mcap_path, format!("`{TOPICS}{table}`"), "verify-sensor", message);
+            }
+            rows.times_s.iter_mut().for_each(|time_s| *time_s -= begins_s);
             let tracks = flights.tracks(&[number].into());
             let Some(track) = tracks.get(&number) else { return };
-            let flight = flights.tables.flights.at(number);
-            rows.times_s.iter_mut().for_each(|time_s| *time_s -= flight.times().s(0));
+            let is_altimeter = ["range_m", "is_hit"].iter().all(|name| rows.numbers.contains_key(*name));
+            let towns = is_altimeter.then(|| towns.get_or_insert_with(|| boxes_of_towns(flights)));
+            let carrying = Carrying {
+                poses: &track.poses,
+                feet: &track.feet,
+                dt_s: flight.dt_s,
+                origin: flight.origin,
+                boxes: towns.and_then(|towns| towns.get(&flight.town)),
+            };
             // Perturbed flights jump as no drone does: their readings are too far apart to be added up.
-            if let Err(message) = rows.finding(&track.poses, flight.dt_s, flight.expert_id.is_none()) {
+            let found = rows.finding(&track.poses, flight.dt_s, flight.expert_id.is_none());
+            if let Err(message) = found.and_then(|()| readings::check(rows, &carrying)) {
                 report.find(file, format!("`{id}`"), "verify-sensor", message);
             }
         });
@@ -72,12 +91,54 @@ pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
     }
 }
 
-/// Gives the readings of each flight of a file; none where it has no true columns.
-fn each_flight(path: &Path, visit: &mut dyn FnMut(&str, &mut SensedRows)) -> Result<(), ArrowError> {
+/// All boxes of each town; damage of the table is reported elsewhere.
+fn boxes_of_towns(flights: &Flights<'_>) -> BTreeMap<String, BoxBvh> {
+    let mut found: BTreeMap<String, Vec<OrientedBox>> = BTreeMap::new();
+    for file in flights.files.sound_below("data/objects/") {
+        let _ = rows::read(&flights.folder.join(file), &tables::of_objects(), &mut |rows| {
+            for row in 0..rows.len() {
+                found.entry(rows.get(Objects::town, row)?).or_default().push(OrientedBox {
+                    center_in_world: DVec3::from_array(rows.get(Objects::center_in_world_m, row)?),
+                    half_extents_m: 0.5 * DVec3::from_array(rows.get(Objects::size_m, row)?),
+                    yaw_rad: rows.get(Objects::yaw_deg, row)?.to_radians(),
+                });
+            }
+            Ok(())
+        });
+    }
+    found.into_iter().map(|(town, list)| (town, BoxBvh::build(list))).collect()
+}
+
+/// Compares the readings of a flight with those of its log.
+///
+/// # Errors
+/// The first difference, in words.
+fn compare(rows: &SensedRows, sensor: &LoggedSensor, logged: &[(u64, Vec<f64>)]) -> Result<(), String> {
+    if logged.len() != rows.times_s.len() {
+        return Err(format!("it has {}, the table has {}", counted(logged.len(), "reading"), rows.times_s.len()));
+    }
+    for (row, ((time_ns, numbers), time_s)) in logged.iter().zip(&rows.times_s).enumerate() {
+        let at_s = *time_ns as f64 / 1e9;
+        if (at_s - time_s).abs() > 1e-6 {
+            return Err(format!("reading {row} is at {at_s} s; the table has it at {time_s} s"));
+        }
+        for (name, number) in sensor.quantities.iter().zip(numbers) {
+            let in_table = rows.numbers.get(name).and_then(|list| list.get(row));
+            if in_table != Some(number) {
+                return Err(format!("reading {row}: `{name}` is {number}; the table has {in_table:?}"));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Gives the readings of each flight of a file; none where it has no frames and times. The last argument says
+/// whether there are true columns.
+fn each_flight(path: &Path, visit: &mut dyn FnMut(&str, &mut SensedRows, bool)) -> Result<(), ArrowError> {
     let builder = ParquetRecordBatchReaderBuilder::try_new(File::open(path)?)?;
     let has = |name: &str| builder.schema().field_with_name(name).is_ok();
     let has_truth = builder.schema().fields().iter().any(|field| field.name().starts_with(TRUE));
-    if !(has_truth && has("trajectory_id") && has("frame") && has("time_s")) {
+    if !(has("trajectory_id") && has("frame") && has("time_s")) {
         return Ok(());
     }
     // Clouds of lidars stay unread: a batch of them may be larger than an array can be.
@@ -96,32 +157,18 @@ fn each_flight(path: &Path, visit: &mut dyn FnMut(&str, &mut SensedRows)) -> Res
             let own = ids.value(from);
             let count = (from..batch.num_rows()).take_while(|row| ids.value(*row) == own).count();
             if own != id {
-                visit(&id, &mut std::mem::take(&mut rows));
+                visit(&id, &mut std::mem::take(&mut rows), has_truth);
                 own.clone_into(&mut id);
             }
             rows.push(&batch.slice(from, count));
             from += count;
         }
     }
-    visit(&id, &mut rows);
+    visit(&id, &mut rows, has_truth);
     Ok(())
 }
 
 impl SensedRows {
-    fn push(&mut self, batch: &RecordBatch) {
-        for (field, column) in batch.schema().fields().iter().zip(batch.columns()) {
-            if let Some(values) = column.as_primitive_opt::<Float64Type>() {
-                let list = match field.name().as_str() {
-                    "time_s" => &mut self.times_s,
-                    name => self.numbers.entry(name.to_owned()).or_default(),
-                };
-                list.extend_from_slice(values.values());
-            } else if let (Some(values), "frame") = (column.as_primitive_opt::<Int64Type>(), field.name().as_str()) {
-                self.frames.extend_from_slice(values.values());
-            }
-        }
-    }
-
     /// What is wrong with the readings of a flight with these poses.
     ///
     /// # Errors
@@ -150,10 +197,6 @@ impl SensedRows {
             }
         }
         Ok(())
-    }
-
-    fn step_s(&self) -> f64 {
-        self.times_s.get(1).copied().unwrap_or_default()
     }
 
     /// What was measured is near the truth.
@@ -270,19 +313,6 @@ impl SensedRows {
             }
         }
         Ok(())
-    }
-
-    fn vectors(&self, names: [&str; 3]) -> Option<Vec<DVec3>> {
-        let [x, y, z] = names.map(|name| self.numbers.get(name));
-        let (x, y, z) = (x?, y?, z?);
-        Some((0..x.len()).map(|row| DVec3::new(x[row], y[row], z[row])).collect())
-    }
-
-    /// Turns of the sensor into the world.
-    fn quaternions(&self) -> Option<Vec<DQuat>> {
-        let [x, y, z, w] = ["true_qx", "true_qy", "true_qz", "true_qw"].map(|name| self.numbers.get(name));
-        let (x, y, z, w) = (x?, y?, z?, w?);
-        Some((0..x.len()).map(|row| DQuat::from_xyzw(x[row], y[row], z[row], w[row]).normalize()).collect())
     }
 }
 

@@ -1,13 +1,13 @@
 //! A flight, and the readings of a sensor along it.
 
+use crate::camera_motion::CameraMotion;
 use crate::geo_origin::GeoOrigin;
 use crate::place::SensorPlace;
 use crate::sensor::{Carrier, Sensor, SensorMoment};
 use crate::smooth_flight::SmoothFlight;
 use cosfly_domain::OrientedBox;
-use cosfly_frames::{DVec3, Pose, Seed};
+use cosfly_frames::{Pose, Seed};
 use cosfly_geometry::BoxBvh;
-use cosfly_optics::pose_at;
 use cosfly_town::GroundIndex;
 
 /// A flight that carries a sensor.
@@ -65,6 +65,7 @@ impl SensedFlight<'_> {
             return;
         }
         let smooth = SmoothFlight::new(self.poses_in_world, self.dt_s);
+        let camera = CameraMotion { poses_in_world: self.poses_in_world, dt_s: self.dt_s, place: self.place };
         for index in 0..self.readings() {
             let time_s = index as f64 * step_s;
             let at = time_s / self.dt_s;
@@ -72,7 +73,7 @@ impl SensedFlight<'_> {
             (self.bodies)(time_s, &mut bodies);
             let airframe = smooth.at(at).at(&self.place);
             let (sensor_in_world, velocity_in_world) = match sensor.carrier {
-                Carrier::Camera => (self.sensor_at(at), self.velocity_at(at)),
+                Carrier::Camera => (camera.pose(at), camera.velocity(at)),
                 Carrier::Airframe => (airframe.pose(), airframe.velocity_in_world),
             };
             let moment = SensorMoment {
@@ -92,19 +93,5 @@ impl SensedFlight<'_> {
             // A microsecond before a frame is that frame.
             each(Reading { frame: (at + 1e-6) as usize, time_s, values: &values });
         }
-    }
-
-    /// Pose of a sensor that the camera carries at a frame number, which may lie between two frames.
-    fn sensor_at(&self, at: f64) -> Pose {
-        let last = (self.poses_in_world.len() - 1) as f64;
-        self.place.on(&pose_at(self.poses_in_world, at.clamp(0.0, last)))
-    }
-
-    /// Mean velocity over the time of a frame around a frame number; over its inner half at both ends of the flight.
-    fn velocity_at(&self, at: f64) -> DVec3 {
-        let last = (self.poses_in_world.len() - 1) as f64;
-        let (before, after) = ((at - 0.5).max(0.0), (at + 0.5).min(last));
-        let way = self.sensor_at(after).position_in_world - self.sensor_at(before).position_in_world;
-        way / ((after - before) * self.dt_s).max(1e-9)
     }
 }

@@ -11,13 +11,17 @@ pub static SENSOR: Sensor = Sensor {
     name: "laser_altimeter",
     doc: "A gimballed laser beam straight down, 100 m at most, without noise: it meets the town's boxes, its ground, and people \
           and vehicles as boxes.",
-    version: 2,
+    version: 3,
     carrier: Carrier::Camera,
     quantities: &[
         Quantity { name: "range_m", doc: "distance to the first thing below, metres; 100 where nothing is nearer" },
         Quantity { name: "is_hit", doc: "1 where something is within the range, else 0" },
     ],
-    truths: &[],
+    truths: &[
+        Quantity { name: "true_x_m", doc: "x of the sensor, where the beam begins, world frame, metres" },
+        Quantity { name: "true_y_m", doc: "y of the sensor, world frame, metres" },
+        Quantity { name: "true_z_m", doc: "z of the sensor, world frame, metres" },
+    ],
     read,
 };
 
@@ -27,4 +31,5 @@ fn read(at: &SensorMoment<'_>, values: &mut [f64]) {
     let nearest_m = [at.hit_m(-DVec3::Z, RANGE_M), ground_m].into_iter().flatten().fold(f64::INFINITY, f64::min);
     values[0] = nearest_m.min(RANGE_M);
     values[1] = f64::from(u8::from(nearest_m <= RANGE_M));
+    values[2..].copy_from_slice(&from.to_array());
 }

@@ -7,6 +7,7 @@
 
 mod airframe;
 mod barometer;
+mod camera_motion;
 mod config;
 mod constellation;
 mod drift;
@@ -25,7 +26,8 @@ mod smooth_flight;
 #[cfg(test)]
 mod tests;
 
-pub use airframe::{Airframe, Derivatives};
+pub use airframe::{Airframe, Derivatives, GRAVITY_MPS2};
+pub use camera_motion::CameraMotion;
 pub use config::SenseConfig;
 pub use drift::Drift;
 pub use flown::{Reading, SensedFlight};

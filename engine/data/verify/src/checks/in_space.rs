@@ -47,9 +47,12 @@ pub fn check(it: &FlightRows<'_>, report: &mut VerifyReport) {
 fn problem(it: &FlightRows<'_>, frame: &PlacedFrame, row: &SpaceRow) -> Option<String> {
     let is_target = row.instance == TARGET_INSTANCE;
     let other = it.bodies.iter().find(|body| body.frame == row.frame && body.instance == Some(row.instance));
-    let (feet, seen, size_m) = match other {
-        _ if is_target => (frame.target.feet_in_world, frame.visible_box(), size_of_target(it, row)),
-        Some(body) => (body.space.feet, body.visible_box, body.size_m),
+    let (feet, heading_rad, seen, size_m) = match other {
+        _ if is_target => {
+            let target = &frame.target;
+            (target.feet_in_world, target.heading_rad, frame.visible_box(), size_of_target(it, row))
+        }
+        Some(body) => (body.space.feet, body.heading_rad, body.visible_box, body.size_m),
         None => return Some(format!("no body of table `bodies` has the id {} in this frame", row.instance)),
     };
     let off_m = (row.size_m - size_m).length();
@@ -61,8 +64,8 @@ fn problem(it: &FlightRows<'_>, frame: &PlacedFrame, row: &SpaceRow) -> Option<S
         return Some(format!("the middle of the box is {apart_m:.6} m from the body's"));
     }
     let turn = |of_deg: f64, from_rad: f64| real::wrap_angle_rad(of_deg.to_radians() - from_rad).abs() > TOLERANCE;
-    if is_target && turn(row.yaw_in_world_deg, frame.target.heading_rad) {
-        return Some(format!("the box is turned by {} degrees, the target is not", row.yaw_in_world_deg));
+    if turn(row.yaw_in_world_deg, heading_rad) {
+        return Some(format!("the box is turned by {} degrees, the body is not", row.yaw_in_world_deg));
     }
     let camera: &Pose = &frame.camera_pose;
     let off_m = (camera.body_from_world_point(row.centre_in_world) - row.centre_in_camera).length();
@@ -74,6 +77,9 @@ fn problem(it: &FlightRows<'_>, frame: &PlacedFrame, row: &SpaceRow) -> Option<S
     }
     if ![0, KEY_POINTS.len()].contains(&row.key_points.len()) {
         return Some(format!("{} key points; there are 17, or none", row.key_points.len()));
+    }
+    if let Some(left) = crossed(row, heading_rad) {
+        return Some(format!("`{left}` is to the right of its partner"));
     }
     let points = row.key_points.iter().zip(KEY_POINTS);
     points.into_iter().find_map(|(point, name)| Some(format!("`{name}` {}", point_problem(it, camera, point, seen)?)))
@@ -88,6 +94,15 @@ fn size_of_target(it: &FlightRows<'_>, row: &SpaceRow) -> DVec3 {
     let [length_m, width_m] = outline_m.unwrap_or([2.0 * it.flight.target_radius_m; 2]);
     let is_known = outline_m.is_some() || !row.key_points.is_empty();
     if is_known { DVec3::new(length_m, width_m, it.flight.target_height_m) } else { row.size_m }
+}
+
+/// The left one of the pairs of the trunk, where it is to the right: shoulders and hips of those who walk swing, but do not cross.
+fn crossed(row: &SpaceRow, heading_rad: f64) -> Option<&'static str> {
+    let (sin, cos) = real::sin_cos(heading_rad);
+    let named = |name: &str| Some(&row.key_points.get(KEY_POINTS.iter().position(|it| *it == name)?)?.point_in_world);
+    let to_right = |left: &str, right: &str| Some((*named(right)? - *named(left)?).dot(DVec3::new(-sin, cos, 0.0)));
+    let pairs = [("left_shoulder", "right_shoulder"), ("left_hip", "right_hip")];
+    pairs.into_iter().find(|(left, right)| to_right(left, right).is_some_and(|way_m| way_m < 0.0)).map(|(left, _)| left)
 }
 
 /// What is wrong with a key point of a body whose visible pixels have these edges.

@@ -11,7 +11,7 @@ const RAIN_MM_H: f64 = 50.0;
 const SIGHT_M: f64 = 50.0;
 
 /// Share of near infrared light that a surface with a label sends back, square to it.
-pub(super) fn reflectivity(label: u8) -> f64 {
+pub fn reflectivity(label: u8) -> f64 {
     match SemanticLabel::ALL.get(usize::from(label)) {
         Some(SemanticLabel::Roads) => 0.15,
         Some(SemanticLabel::SideWalks) => 0.3,

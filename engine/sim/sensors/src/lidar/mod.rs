@@ -16,7 +16,9 @@ mod sweep;
 mod tests;
 
 pub use config::{PatternConfig, ScanConfig, ScanRefusal};
+
 pub use device::{LIDARS, Lidar, lidar};
+pub use echo::reflectivity;
 pub use pattern::LidarPattern;
 pub use point::LidarPoint;
 pub use scene::{LidarScene, LidarTriangle};
