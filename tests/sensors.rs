@@ -73,7 +73,7 @@ fn readings_are_in_logs_and_in_exports() {
         let mut log = dataset.log(flight).expect("a log");
         let sensors = log.sensors();
         let names: Vec<(&str, String)> = sensors.iter().map(|it| (it.name.as_str(), it.quantities.join(" "))).collect();
-        let quantities = "range_m is_hit".to_owned();
+        let quantities = "range_m is_hit true_x_m true_y_m true_z_m".to_owned();
         assert_eq!(names[1..3], [("laser_altimeter", quantities.clone()), ("nose_m", quantities)]);
         assert_eq!((names[0].0, names[3].0), ("inertial_unit", "satellite_receiver"));
         // One in each frame, those of the table.

@@ -122,3 +122,27 @@ fn slope_of(points: &[(f64, f64)]) -> Option<(f64, f64, f64)> {
     let rest = (yy - slope * xy).max(0.0) / (count - 2.0);
     (xx > 0.0).then(|| (slope, (rest / xx).sqrt(), (xx / count).sqrt()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn measured_depths_are_whole_steps_near_the_exact_ones_of_the_same_pixels() {
+        let steps = |px: f64| (STEPS * px).round() / STEPS;
+        let sound: Vec<(usize, f64, f64)> = (0..200).map(|k| (k, 2.0 + 0.017 * k as f64, 0.0)).collect();
+        let judged = |measured: &dyn Fn(usize, f64) -> f64| {
+            let both: Vec<_> =
+                sound.iter().map(|(pixel, exact, _)| (*pixel, *exact, measured(*pixel, *exact))).collect();
+            MEASURES.iter().map(|measure| measured_finding(&both, measure)).collect::<Vec<_>>()
+        };
+        assert_eq!(judged(&|k, exact| steps(exact + 0.1 * ((k * 7 % 5) as f64 - 2.0) / 2.0)), [None, None]);
+        let words = |found: Vec<Option<String>>, words: &str| {
+            assert!(found.iter().all(|it| it.as_ref().is_some_and(|it| it.contains(words))), "{found:?}");
+        };
+        words(judged(&|_, exact| 1.02 * steps(exact)), "no whole number of 1/16 px");
+        words(judged(&|_, exact| steps(exact) + 3.0), "half of 200");
+        let mirrored = judged(&|k, _| steps(sound[199 - k].1)).swap_remove(0);
+        words(vec![mirrored], "of other pixels");
+    }
+}

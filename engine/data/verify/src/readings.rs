@@ -360,3 +360,133 @@ fn altimeter_problem(rows: &SensedRows, of: &Carrying<'_>) -> Result<(), String>
 fn exceeds(number: f64, allowed: f64) -> bool {
     number.is_nan() || number > allowed
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cosfly_domain::OrientedBox;
+
+    const DT_S: f64 = 0.5;
+    const ORIGIN: GeoOrigin = GeoOrigin { latitude_deg: 48.0, longitude_deg: 11.0 };
+
+    fn poses() -> Vec<Pose> {
+        let pose = |frame: u32| {
+            let time_s = f64::from(frame) * DT_S;
+            let position_in_world = DVec3::new(4.0 * time_s, 3.0 * real::sin(time_s), 20.0 + real::sin(0.7 * time_s));
+            Pose { position_in_world, pitch_rad: -0.1, yaw_rad: 0.6 * real::sin(time_s), roll_rad: 0.0 }
+        };
+        (0..20).map(pose).collect()
+    }
+
+    /// Columns of readings at 20 Hz, `count` numbers each.
+    fn rows(names: &[&str], reading: &dyn Fn(f64) -> Vec<f64>) -> SensedRows {
+        let times_s: Vec<f64> = (0..190).map(|row| 0.05 * f64::from(row)).collect();
+        let mut rows = SensedRows {
+            frames: times_s.iter().map(|it| (it / DT_S) as i64).collect(),
+            times_s,
+            ..SensedRows::default()
+        };
+        let all: Vec<Vec<f64>> = rows.times_s.iter().map(|time_s| reading(*time_s)).collect();
+        for (place, name) in names.iter().enumerate() {
+            rows.numbers.insert((*name).to_owned(), all.iter().map(|numbers| numbers[place]).collect());
+        }
+        rows
+    }
+
+    fn judged(rows: &SensedRows) -> Result<(), String> {
+        let poses = poses();
+        let roof = OrientedBox::from_corners(DVec3::new(-50.0, -50.0, 0.0), DVec3::new(50.0, 50.0, 5.0));
+        let boxes = BoxBvh::build(vec![roof]);
+        check(rows, &Carrying { poses: &poses, feet: &[], dt_s: DT_S, origin: ORIGIN, boxes: Some(&boxes) })
+    }
+
+    /// Passes as it is, and no more when columns are multiplied or change places.
+    fn finds(sound: &SensedRows, faults: &[(&str, f64)], swaps: &[(&str, &str)]) {
+        assert_eq!(judged(sound), Ok(()));
+        for (name, factor) in faults {
+            let mut rows = sound.clone();
+            rows.numbers.get_mut(*name).expect("a column").iter_mut().for_each(|number| *number *= factor);
+            assert!(judged(&rows).is_err(), "{name} x {factor}");
+        }
+        for (one, other) in swaps {
+            let mut rows = sound.clone();
+            let taken = rows.numbers.remove(*one).expect("a column");
+            let given = rows.numbers.insert((*other).to_owned(), taken).expect("a column");
+            rows.numbers.insert((*one).to_owned(), given);
+            assert!(judged(&rows).is_err(), "{one} for {other}");
+        }
+    }
+
+    #[test]
+    fn odometry_moves_and_turns_with_the_drone_wherever_it_sits() {
+        let names = ["axis_x", "axis_y", "axis_z", "velocity_x_mps", "velocity_y_mps", "velocity_z_mps"];
+        let poses = poses();
+        let place = SensorPlace { position_in_body: DVec3::new(1.0, -0.5, 0.2), ..SensorPlace::default() };
+        let motion = CameraMotion { poses_in_world: &poses, dt_s: DT_S, place };
+        let sound = rows(&names, &|time_s| {
+            let (axis, velocity) =
+                (motion.pose(time_s / DT_S).world_from_body() * DVec3::X, motion.velocity(time_s / DT_S));
+            [axis.to_array(), velocity.to_array()].concat()
+        });
+        let faults = [("axis_y", -1.0), ("velocity_x_mps", -1.0), ("velocity_y_mps", 1.05)];
+        finds(&sound, &faults, &[("axis_x", "axis_y"), ("velocity_x_mps", "velocity_y_mps")]);
+    }
+
+    #[test]
+    fn fields_heights_and_places_are_those_of_the_airframe() {
+        let poses = poses();
+        let smooth = SmoothFlight::new(&poses, DT_S);
+        let (sin, cos) = real::sin_cos(ORIGIN.latitude_deg.to_radians());
+        let field = rows(&["true_field_x_ut", "true_field_y_ut", "true_field_z_ut"], &|time_s| {
+            let turn = smooth.at(time_s / DT_S).world_from_body.transpose();
+            (turn * (EQUATOR_UT * DVec3::new(0.0, -cos, -2.0 * sin))).to_array().to_vec()
+        });
+        let swaps = [("true_field_x_ut", "true_field_y_ut"), ("true_field_y_ut", "true_field_z_ut")];
+        finds(&field, &[("true_field_x_ut", -1.0), ("true_field_y_ut", -1.0), ("true_field_z_ut", 1.05)], &swaps);
+        let air = rows(&["true_altitude_m", "true_pressure_hpa"], &|time_s| {
+            let height_m = smooth.at(time_s / DT_S).position_in_world.z;
+            vec![height_m, 1013.25 * real::powf(1.0 - height_m / 44_330.77, 5.255_88)]
+        });
+        finds(&air, &[("true_altitude_m", 1.001), ("true_pressure_hpa", 1.001)], &[]);
+        let east = [
+            "true_east_m",
+            "true_north_m",
+            "true_up_m",
+            "true_velocity_east_mps",
+            "true_velocity_north_mps",
+            "true_velocity_up_mps",
+        ];
+        let receiver = rows(&east, &|time_s| {
+            let airframe = smooth.at(time_s / DT_S);
+            let enu = |it: DVec3| [it.x, -it.y, it.z];
+            [enu(airframe.position_in_world), enu(airframe.velocity_in_world)].concat()
+        });
+        let swaps = [("true_east_m", "true_north_m"), ("true_velocity_east_mps", "true_velocity_north_mps")];
+        finds(
+            &receiver,
+            &[("true_north_m", -1.0), ("true_velocity_up_mps", -1.0), ("true_velocity_east_mps", 1.02)],
+            &swaps,
+        );
+    }
+
+    #[test]
+    fn degrees_lie_where_metres_do_and_beams_end_on_boxes() {
+        let names = ["east_m", "north_m", "up_m", "latitude_deg", "longitude_deg"];
+        let globe = rows(&names, &|time_s| {
+            let [latitude, longitude] = ORIGIN.degrees_at(DVec3::new(30.0 + time_s, -80.0, 20.0));
+            vec![30.0 + time_s, 80.0, 20.0, latitude, longitude]
+        });
+        finds(
+            &globe,
+            &[("latitude_deg", -1.0), ("north_m", 1.1)],
+            &[("latitude_deg", "longitude_deg"), ("east_m", "north_m")],
+        );
+        let poses = poses();
+        let motion = CameraMotion { poses_in_world: &poses, dt_s: DT_S, place: SensorPlace::default() };
+        let beam = rows(&["range_m", "is_hit", "true_x_m", "true_y_m", "true_z_m"], &|time_s| {
+            let from = motion.pose(time_s / DT_S).position_in_world;
+            [vec![from.z - 5.0, 1.0], from.to_array().to_vec()].concat()
+        });
+        finds(&beam, &[("range_m", 1.02), ("range_m", 0.98), ("is_hit", 0.0), ("true_x_m", 1.1)], &[]);
+    }
+}

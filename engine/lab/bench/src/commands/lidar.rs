@@ -3,6 +3,7 @@
 use super::outcome::{Outcome, print};
 use super::vehicles::town_of;
 use clap::Args;
+use cosfly_domain::Mount;
 use cosfly_frames::{DVec3, Pose, Seed};
 use cosfly_lab::clock::timed;
 use cosfly_materials::presets::clear_noon;
@@ -15,6 +16,7 @@ use std::path::PathBuf;
 pub const EXAMPLES: &str = "\
 Examples:
   cosfly-lab lidar --town recipes/towns/downtown.xodr
+  cosfly-lab lidar --town recipes/towns/downtown.xodr --pitch-deg -30
   cosfly-lab lidar --town recipes/towns/uptown.xodr --seconds 5 --height-m 40";
 
 /// Arguments of `lidar`.
@@ -29,6 +31,9 @@ pub struct LidarArguments {
     /// Height of the flight above the lowest box, metres
     #[arg(long, value_name = "M", default_value_t = 25.0)]
     pub height_m: f64,
+    /// Turn of the devices upwards, degrees: -30 looks down as they do on drones
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub pitch_deg: f64,
     /// Seed of the noise
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
@@ -56,6 +61,8 @@ pub fn lidar(arguments: &LidarArguments) -> Outcome {
         roll_rad: 0.0,
     };
     let poses: Vec<Pose> = (0..=arguments.seconds).map(pose).collect();
+    let mount = Mount { pitch_rad: arguments.pitch_deg.to_radians(), ..Mount::default() };
+    let place = SensorPlace { mount, ..SensorPlace::default() };
     let row = |lidar: &&Lidar| {
         let (pattern, [_, rate_hz, _]) = (lidar.pattern(), lidar.rates_hz);
         let flight = ScannedFlight {
@@ -63,7 +70,7 @@ pub fn lidar(arguments: &LidarArguments) -> Outcome {
             bodies: &|_, _| {},
             poses_in_world: &poses,
             dt_s: 1.0,
-            place: SensorPlace::default(),
+            place,
             rate_hz,
             weather: &clear_noon(),
             seed,
@@ -72,12 +79,13 @@ pub fn lidar(arguments: &LidarArguments) -> Outcome {
         let (beams, ((), cpu_s)) =
             (flight.beams(&pattern) as f64, timed(|| flight.scan(&pattern, &mut |sweep| points += sweep.points.len())));
         let share = 100.0 * points as f64 / beams;
-        format!("| `{}` | {:.0} | {:.2} | {share:.0} |\n", lidar.name, beams / 1e3, beams / cpu_s / 1e6)
+        let [beams_s, points_s] = [beams, points as f64].map(|count| count / cpu_s / 1e6);
+        format!("| `{}` | {:.0} | {beams_s:.2} | {share:.0} | {points_s:.2} |\n", lidar.name, beams / 1e3)
     };
     let rows: String = LIDARS.iter().map(row).collect();
     print(&format!(
-        "scene of {}: {scene_s:.2} s\n\n| device | thousand beams | million beams a second of a core | % that are points |\n\
-         | --- | ---: | ---: | ---: |\n{rows}",
+        "scene of {}: {scene_s:.2} s\n\n| device | thousand beams | million beams a second of a core | % that are points | million points a second |\n\
+         | --- | ---: | ---: | ---: | ---: |\n{rows}",
         town.name
     ))
 }
