@@ -55,7 +55,7 @@ fn readings_are_tables_of_a_verified_dataset() {
         "{points:?}"
     );
     let card = std::fs::read_to_string(dataset.join("README.md")).expect("a card");
-    assert!(card.contains("Given by the sensor `laser_altimeter` 2: A gimballed laser beam"), "{card}");
+    assert!(card.contains("Given by the sensor `laser_altimeter` 3: A gimballed laser beam"), "{card}");
     assert!(card.contains("| `range_m` | float64 | distance to the first thing below"), "{card}");
 }
 

@@ -26,16 +26,16 @@ const RANGE_M: f64 = 100.0;
 const SAME_RANGE_M: f64 = 0.01;
 const SHORTER_SHARE: f64 = 0.2;
 const SHORTER: f64 = 3.0;
-/// Feet so near to a beam, metres, stand on ground that is as high, but for steps and bridges.
-const FEET_M: f64 = 1.5;
+/// Ground so near to a beam, metres, is as high, but for steps and bridges.
+const NEAR_M: f64 = 1.5;
 const STEP_M: f64 = 0.5;
 
 /// A flight that carries sensors.
 pub struct Carrying<'a> {
     /// Poses of the drone, at least one.
     pub poses: &'a [Pose],
-    /// Feet of the target in each frame.
-    pub feet: &'a [DVec3],
+    /// Points of the ground: feet of the target, and what some pictures show, where an altimeter asks for them.
+    pub ground: &'a [DVec3],
     /// Time between frames, seconds.
     pub dt_s: f64,
     /// Place of the world on the globe.
@@ -310,7 +310,7 @@ fn odometry_problem(rows: &SensedRows, of: &Carrying<'_>) -> Result<(), String> 
     }
 }
 
-/// A beam straight down is as long as the way to the first box, or shorter; on ground it ends as high as feet stand there.
+/// A beam straight down is as long as the way to the first box, or shorter; on ground it ends as high as feet stand and pictures show it there.
 fn altimeter_problem(rows: &SensedRows, of: &Carrying<'_>) -> Result<(), String> {
     let [ranges, hits] = ["range_m", "is_hit"].map(|name| rows.numbers.get(name));
     let places = rows.vectors(["true_x_m", "true_y_m", "true_z_m"]);
@@ -336,14 +336,16 @@ fn altimeter_problem(rows: &SensedRows, of: &Carrying<'_>) -> Result<(), String>
             }
             continue;
         }
-        let near = |feet: &&DVec3| feet.truncate().distance(from.truncate()) < FEET_M;
-        let Some(feet) = of.feet.iter().find(near).filter(|_| *range_m < RANGE_M) else { continue };
+        let near = |ground: &&DVec3| ground.truncate().distance(from.truncate()) < NEAR_M;
+        let Some(ground) = of.ground.iter().find(near).filter(|_| *range_m < RANGE_M) else { continue };
         on_ground += 1.0;
-        if (from.z - range_m - feet.z).abs() > STEP_M {
-            wrong.push((row, *range_m, from.z - feet.z));
+        if (from.z - range_m - ground.z).abs() > STEP_M {
+            wrong.push((row, *range_m, from.z - ground.z));
         }
     }
-    for (list, all, what) in [(&shorter, on_boxes, "the box below it is"), (&wrong, on_ground, "feet below it are")] {
+    for (list, all, what) in
+        [(&shorter, on_boxes, "the box below it is"), (&wrong, on_ground, "the ground below it is")]
+    {
         if let Some((row, range_m, expected_m)) =
             list.first().filter(|_| list.len() as f64 > SHORTER + SHORTER_SHARE * all)
         {
@@ -397,7 +399,16 @@ mod tests {
         let poses = poses();
         let roof = OrientedBox::from_corners(DVec3::new(-50.0, -50.0, 0.0), DVec3::new(50.0, 50.0, 5.0));
         let boxes = BoxBvh::build(vec![roof]);
-        check(rows, &Carrying { poses: &poses, feet: &[], dt_s: DT_S, origin: ORIGIN, boxes: Some(&boxes) })
+        check(
+            rows,
+            &Carrying {
+                poses: &poses,
+                ground: &[DVec3::new(500.0, 0.0, 0.0)],
+                dt_s: DT_S,
+                origin: ORIGIN,
+                boxes: Some(&boxes),
+            },
+        )
     }
 
     /// Passes as it is, and no more when columns are multiplied or change places.

@@ -3,7 +3,7 @@
 use crate::flights::Flights;
 use crate::readings::{self, Carrying, LONGEST_ARM_M};
 use crate::report::VerifyReport;
-use crate::rows;
+use crate::rows::{self, PlacedFlight};
 use crate::sensed_rows::SensedRows;
 use arrow_array::cast::AsArray;
 use arrow_schema::ArrowError;
@@ -20,6 +20,11 @@ use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::Path;
+
+/// Frames whose pictures tell where the ground is, points of each, and their farthest depth, metres.
+const GROUND_FRAMES: usize = 5;
+const GROUND_POINTS: usize = 2000;
+const GROUND_M: f64 = 60.0;
 
 /// Acceleration of free fall, m/s^2.
 const GRAVITY_MPS2: f64 = 9.81;
@@ -61,7 +66,12 @@ pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
                 return;
             }
             let begins_s = flight.times().s(0);
+            let is_altimeter = ["range_m", "is_hit"].iter().all(|name| rows.numbers.contains_key(*name));
+            let mut ground = vec![];
             let in_log = logged.map_or(Ok(()), |(sensor, mut log)| {
+                if is_altimeter {
+                    ground = seen_ground(flight, &mut log);
+                }
                 compare(rows, &sensor, &log.readings(&sensor).map_err(|error| error.to_string())?)
             });
             if let Err(message) = in_log {
@@ -70,11 +80,11 @@ pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
             rows.times_s.iter_mut().for_each(|time_s| *time_s -= begins_s);
             let tracks = flights.tracks(&[number].into());
             let Some(track) = tracks.get(&number) else { return };
-            let is_altimeter = ["range_m", "is_hit"].iter().all(|name| rows.numbers.contains_key(*name));
+            ground.extend(&track.feet);
             let towns = is_altimeter.then(|| towns.get_or_insert_with(|| boxes_of_towns(flights)));
             let carrying = Carrying {
                 poses: &track.poses,
-                feet: &track.feet,
+                ground: &ground,
                 dt_s: flight.dt_s,
                 origin: flight.origin,
                 boxes: towns.and_then(|towns| towns.get(&flight.town)),
@@ -89,6 +99,31 @@ pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
             report.find_damage(file, format!("it cannot be read: {error}"));
         }
     }
+}
+
+/// Points of the ground that some frames show, world frame; none through a lens.
+fn seen_ground(flight: &PlacedFlight, log: &mut LogReader) -> Vec<DVec3> {
+    let (frames, mut points) = (flight.frames as usize, vec![]);
+    if !flight.lens.is_none() || flight.readout_s > 0.0 {
+        return points;
+    }
+    let (centre_u, centre_v, focal_px) = flight.camera.centre_and_focal_px();
+    for frame in (0..GROUND_FRAMES).map(|number| number * frames.saturating_sub(1) / (GROUND_FRAMES - 1)) {
+        // Damage of pictures is found elsewhere.
+        let Ok(logged) = log.frame_with_instances(frame) else { continue };
+        let width = logged.width as usize;
+        let step = (logged.instance.len() / GROUND_POINTS).max(1);
+        for pixel in (0..logged.instance.len()).step_by(step).filter(|pixel| logged.instance[*pixel] == 0) {
+            let depth_m = f64::from(logged.depth_m[pixel]);
+            let [u, v] = [pixel % width, pixel / width].map(|at| at as f64 + 0.5);
+            let ray = DVec3::new((u - centre_u) / focal_px, (v - centre_v) / focal_px, 1.0);
+            let in_map = logged.camera_in_map + logged.map_from_optical * (depth_m * ray);
+            if depth_m < GROUND_M {
+                points.push(DVec3::new(in_map.x, -in_map.y, in_map.z));
+            }
+        }
+    }
+    points
 }
 
 /// All boxes of each town; damage of the table is reported elsewhere.
