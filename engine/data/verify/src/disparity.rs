@@ -9,6 +9,8 @@ const EVERY: usize = 61;
 /// Half the step of the stored depths, and what 32 bits round, metres and a share.
 const DEPTH_STEP_M: f64 = 5e-4;
 const SHARE: f64 = 1e-6;
+/// Base line of the model of `depth_sensor`, which its channel states in words, metres.
+const MODEL_BASE_LINE_M: f64 = 0.12;
 /// Measured disparities are whole steps of a pixel, but for what 32 bits round.
 const STEPS: f64 = 16.0;
 const OFF_GRID: f64 = 0.02;
@@ -54,8 +56,7 @@ impl KnownDepths {
         if *channel != disparity::CHANNEL && measure.is_none() {
             return None;
         }
-        let base_line_m =
-            if *channel == depth_sensor::CHANNEL { Some(depth_sensor::BASE_LINE_M) } else { flight.base_line_m };
+        let base_line_m = if *channel == depth_sensor::CHANNEL { Some(MODEL_BASE_LINE_M) } else { flight.base_line_m };
         let Some(base_line_m) = base_line_m else {
             return Some("table `trajectories` has no base line of it".into());
         };

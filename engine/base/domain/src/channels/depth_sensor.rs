@@ -2,9 +2,6 @@
 
 use super::channel::{Channel, ChannelSource};
 
-/// Distance of the right camera, metres: that of common stereo cameras for drones and robots.
-pub const BASE_LINE_M: f64 = 0.12;
-
 /// Planar depth as a stereo camera measures it, metres.
 pub static CHANNEL: Channel = Channel {
     name: "depth_sensor",

@@ -4,10 +4,12 @@
 //! picture, behind what is nearer in that picture, and where the colours have too little contrast to be matched. Other disparities
 //! get noise of a constant deviation, more where contrast is low, and are rounded to steps: the error of depth grows with its square.
 
-use cosfly_domain::channels::depth_sensor::{self, BASE_LINE_M};
+use cosfly_domain::channels::depth_sensor;
 use cosfly_domain::{Camera, FrameImages};
 use cosfly_frames::Seed;
 
+/// Distance of the right camera, metres: that of common stereo cameras for drones and robots.
+const BASE_LINE_M: f64 = 0.12;
 /// Depths that are measured, metres.
 const RANGE_M: [f64; 2] = [0.5, 40.0];
 /// Steps of disparities, pixels: those of OpenCV's matchers.
