@@ -103,7 +103,7 @@ pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
 
 /// Points of the ground that some frames show, world frame; none through a lens.
 fn seen_ground(flight: &PlacedFlight, log: &mut LogReader) -> Vec<DVec3> {
-    let (frames, mut points) = (flight.frames as usize, vec![]);
+    let (frames, mut points) = (flight.frames, vec![]);
     if !flight.lens.is_none() || flight.readout_s > 0.0 {
         return points;
     }
