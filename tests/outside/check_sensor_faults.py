@@ -1,6 +1,6 @@
 """Plants faults in the sensors of a dataset and has `cosfly verify` find each: `check_sensor_faults.py COSFLY FOLDER [--only WORD]`.
 
-The dataset is made in FOLDER by `sensors.toml` beside this script: a stereo pair with every channel, boxes and key points, six sensors and two lidars
+The dataset is made in FOLDER by `sensors.toml` beside this script: a stereo pair with every channel, boxes and key points, six sensors and a lidar
 among people and vehicles. A fault changes tables, logs or both, and all digests and sizes with them, so that only the contents can tell: shifted
 time stamps, swapped axes, scales, flipped signs, masks, labels, masks of other frames. Shares no code with cosfly."""
 
