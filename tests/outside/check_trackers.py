@@ -163,6 +163,10 @@ def mot():
             expected |= {(number + 1, body["instance"]): box(body["visible_box_px"]) for body in people[id, number]}
         found = {(int(line[0]), int(line[1])): list(line[2:6]) for line in truth}
         assert found == expected and len(found) == len(truth)
+        # Detections are the boxes of pedestrians, of whom nobody knows.
+        told = np.loadtxt(root / "det/det.txt", delimiter=",", ndmin=2).reshape(-1, 10)
+        assert sorted(map(list, told[:, [0, 2, 3, 4, 5]])) == sorted(map(list, truth[truth[:, 7] == 1][:, [0, 2, 3, 4, 5]]))
+        assert (told[:, [1, 6, 7, 8, 9]] == [-1, 1, -1, -1, -1]).all() and (np.diff(told[:, 0]) >= 0).all()
         for line in truth:
             if line[1] == 1:
                 assert abs(line[8] - frames[id][int(line[0]) - 1]["visible_by_pixels"]) < 1e-4

@@ -52,6 +52,7 @@ fn absent(home: &Path, encoding: EncodingConfig) -> PublishedDataset {
 fn every_body_of_the_tables_has_its_line_in_a_sequence_of_many_bodies() {
     let (home, dataset) = published();
     let (files, _) = export(&dataset, "mot", json!({}), &home.path().join("mot"));
+    let (with_classes, _) = export(&dataset, "mot", json!({"detections": "all"}), &home.path().join("all"));
     let (index, mut bodies) = (dataset.row_index("frames").unwrap(), SightingReader::of(&dataset).unwrap());
     for (place, flight) in dataset.flights().iter().enumerate() {
         let folder = format!("{}/{}", flight.split, flight.trajectory_id);
@@ -73,6 +74,15 @@ fn every_body_of_the_tables_has_its_line_in_a_sequence_of_many_bodies() {
         let rows = lines.lines().map(|line| line.split(',').map(|it| it.parse().unwrap()).collect::<Vec<f64>>());
         assert_eq!(rows.collect::<Vec<_>>(), expected.iter().map(|row| row.to_vec()).collect::<Vec<_>>());
         assert!(files.contains_key(Path::new(&format!("{folder}/img1/000005.jpg"))));
+        // Detections are the same boxes of whom nobody knows.
+        expected.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let told = |class: &str| {
+            let line =
+                |row: &[f64; 9]| format!("{},-1,{},{},{},{},1,{class},-1,-1\n", row[0], row[2], row[3], row[4], row[5]);
+            expected.iter().map(line).collect::<String>()
+        };
+        assert_eq!(text(&files, &format!("{folder}/det/det.txt")), told("-1"));
+        assert_eq!(text(&with_classes, &format!("{folder}/det/det.txt")), told("1"));
     }
     let maps = dataset.flights().iter().filter(|flight| flight.split == "train").map(|it| &*it.trajectory_id);
     assert_eq!(
