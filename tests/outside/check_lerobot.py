@@ -14,7 +14,7 @@ from shared import messages, pixels, turned, world_from_body
 from shared import rows as rows_of
 
 dataset, export, cache = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
-RGB, DEPTH = "observation.images.rgb", "observation.images.depth"
+RGB, DEPTH, SENSORS = "observation.images.rgb", "observation.images.depth", "observation.sensors"
 QUANTILES = {"q01": 0.01, "q10": 0.1, "q50": 0.5, "q90": 0.9, "q99": 0.99}
 poses = {(row["trajectory_id"], row["frame"]): row for row in rows_of(dataset, "frames")}
 flights = {row["trajectory_id"]: row for row in rows_of(dataset, "trajectories")}
@@ -70,7 +70,7 @@ def check(split):
     assert len(episodes) == info["total_episodes"] and episodes["length"].sum() == info["total_frames"]
     assert info["splits"] == {split: f"0:{len(episodes)}"} and set(episodes["split"]) == {split}
     assert all(flights[flight]["split"] == split for flight in episodes["trajectory_id"])
-    inputs = sorted(name for name in info["features"] if name.startswith("observation"))
+    inputs = sorted(name for name in info["features"] if name.startswith("observation") and name != SENSORS)
     assert inputs in ([RGB, "observation.state"], [DEPTH, RGB, "observation.state"]), "policies take these as inputs"
 
     rows = datasets.load_dataset("parquet", data_files=str(root / "data/*/*.parquet"), split="train", cache_dir=cache)
@@ -101,10 +101,30 @@ def check(split):
     for key in ("min", "max", "mean", "std", *QUANTILES):
         assert np.array(stats[RGB][key]).shape == (3, 1, 1)
     check_episodes(episodes, info, rows, stats)
+    if SENSORS in info["features"]:
+        check_sensors(info, rows, episodes)
     if DEPTH in inputs:
         check_depth(info, rows, episodes, stats[DEPTH])
     print(f"lerobot, {split}, file by file: {len(rows)} frames of {len(episodes)} episodes, {len(tasks)} tasks")
     return info, tasks
+
+
+def check_sensors(info, rows, episodes):
+    """The last reading of each sensor at the time of each frame, without the true numbers."""
+    names, found = info["features"][SENSORS]["names"], np.array(rows[SENSORS], np.float32)
+    assert found.shape[1] == len(names) and not any(".true_" in name for name in names)
+    for sensor in {name.split(".")[0] for name in names}:
+        own = [number for number, name in enumerate(names) if name.split(".")[0] == sensor]
+        columns = [names[number].split(".", 1)[1] for number in own]
+        readings = pd.DataFrame(rows_of(dataset, sensor)).sort_values(["trajectory_id", "row"])
+        for _, episode in episodes.iterrows():
+            flight = episode["trajectory_id"]
+            of_flight = readings[readings["trajectory_id"] == flight]
+            for frame in range(episode["length"]):
+                last = of_flight[of_flight["time_s"] <= poses[flight, frame]["time_s"] + 1e-9].iloc[-1]
+                wanted = np.float32(last[columns].astype(float))
+                assert np.array_equal(found[episode["dataset_from_index"] + frame][own], wanted, equal_nan=True), (sensor, flight, frame)
+    print(f"lerobot, {len(names)} numbers of sensors of {len(found)} frames are the last ones of the tables")
 
 
 def depths(flight):

@@ -1,5 +1,5 @@
-"""Reads bags of a dataset with rosbags, mcap-ros2-support and Rerun, and compares them with the dataset's tables. The frames are computed here anew:
-from CARLA's left-handed angles, by matrices, without a line of cosfly.
+"""Reads bags of a dataset with rosbags, mcap-ros2-support and Rerun, and compares them with the dataset's tables, those of sensors among them. The
+frames are computed here anew: from CARLA's left-handed angles, by matrices, without a line of cosfly.
 
 Usage: `check_ros2.py DATASET EXPORT`."""
 
@@ -9,6 +9,7 @@ from collections import defaultdict
 from pathlib import Path
 
 import numpy as np
+import pyarrow.dataset
 from mcap_ros2.reader import read_ros2_messages
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
@@ -20,7 +21,15 @@ MIRROR = np.diag([1.0, -1.0, 1.0])
 # Columns: right, down and ahead of a camera whose axes are x ahead, y right, z up.
 OPTICAL = np.array([[0.0, 0, 1], [1, 0, 0], [0, -1, 0]])
 LATCHED = {"/tf_static", "/town", "/instruction"}
+POINT = [("place", "<f4", 3), ("intensity", "<f4"), ("time", "<f4"), ("ring", "<u2"), ("label", "<u2"), ("instance", "<u4")]
 flights, frames, people = flown(dataset)
+# Readings by table and flight: tables with a time that is not that of a frame.
+sensors, readings = {}, []
+for table in sorted(path.name for path in (dataset / "data").iterdir()):
+    if {"row", "time_s"} <= set(pyarrow.dataset.dataset(dataset / "data" / table).schema.names):
+        sensors[table] = defaultdict(list)
+        for row in sorted(rows(dataset, table), key=lambda row: row["row"]):
+            sensors[table][row["trajectory_id"]].append(row)
 objects = defaultdict(set)
 for row in rows(dataset, "objects"):
     x, y, z = row["center_in_world_m"]
@@ -117,17 +126,97 @@ def check_geometry(of, tree, row):
     return 1
 
 
+def vector(row, name, unit, axes="xyz"):
+    return np.array([row[f"{name}_{axis}{unit}"] for axis in axes])
+
+
+def axial(left_handed):
+    """An angular velocity in the mirrored world, by the matrix that takes a place to its velocity."""
+    x, y, z = left_handed
+    across = MIRROR @ np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]]) @ MIRROR
+    return np.array([across[2, 1], across[0, 2], across[1, 0]])
+
+
+def check_reading(row, message):
+    """A reading of a table as its message; returns the kind of sensor."""
+    if "force_x_mps2" in row:
+        assert np.allclose(xyz(message.linear_acceleration), MIRROR @ vector(row, "force", "_mps2"), atol=1e-12)
+        assert np.allclose(xyz(message.angular_velocity), axial(vector(row, "rate", "_rad_s")), atol=1e-12)
+        assert message.orientation_covariance[0] == -1, "no orientation is measured"
+        return "imu"
+    if "latitude_deg" in row:
+        assert np.array_equal([message.latitude, message.longitude, message.altitude], [row[it] for it in ("latitude_deg", "longitude_deg", "up_m")])
+        assert (message.status.status, message.position_covariance_type) == (0 if row["is_fix"] else -1, 0)
+        return "navsat"
+    if "pressure_hpa" in row:
+        assert np.isclose(message.fluid_pressure, 100 * row["pressure_hpa"], rtol=1e-14)
+        return "pressure"
+    if "field_x_ut" in row:
+        assert np.allclose(1e6 * xyz(message.magnetic_field), MIRROR @ vector(row, "field", "_ut"), rtol=1e-12)
+        return "field"
+    if "cloud" in row:
+        kinds = {4: "<u2", 6: "<u4", 7: "<f4"}
+        names, formats, offsets = zip(*((it.name, kinds[it.datatype], it.offset) for it in message.fields))
+        points = np.frombuffer(bytes(message.data), np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": message.point_step}))
+        told = np.frombuffer(row["cloud"], POINT)
+        assert (message.height, message.width, message.row_step) == (1, row["points"], len(message.data)) and message.is_dense and not message.is_bigendian
+        assert np.array_equal(np.stack([points[axis] for axis in "xyz"], 1), told["place"] * np.float32([1, -1, 1]))
+        assert all(np.array_equal(points[name], told[name]) for name in ("intensity", "time", "ring", "label", "instance"))
+        return "lidar"
+    named = dict(zip(message.layout.dim[0].label.split(","), message.data, strict=True))
+    assert named and all(np.isclose(row[name], value, equal_nan=True) for name, value in named.items())
+    return "numbers"
+
+
+def check_sensors(id, told, places):
+    """Each reading of the tables is a message, at its time, in a frame of its name, whose place `/tf` has where the table has it."""
+    expected = {name for name, of_flights in sensors.items() if id in of_flights}
+    assert {topic.removeprefix("/sensor/") for topic in told} == expected, (id, set(told), expected)
+    count = defaultdict(int)
+    for name in expected:
+        ways = []
+        for row, (time_ns, message) in zip(sensors[name][id], told[f"/sensor/{name}"], strict=True):
+            assert time_ns == 10**9 + round(row["time_s"] * 1e9), (name, row["row"])
+            if hasattr(message, "header"):
+                assert (message.header.frame_id, nanoseconds(message.header.stamp)) == (name, time_ns)
+            kind = check_reading(row, message)
+            count[kind] += 1
+            if "true_qw" in row:
+                parent, rotation, found = places[name, time_ns]
+                wanted = MIRROR @ Rotation.from_quat(vector(row, "true", "", ("qx", "qy", "qz", "qw"))).as_matrix() @ MIRROR
+                assert parent == "map" and np.allclose(found, MIRROR @ vector(row, "true", "_m"), atol=1e-9) and np.allclose(rotation, wanted, atol=1e-9)
+                ways.append((time_ns / 1e9, rotation, message))
+        if kind == "imu" and not flights[id]["expert_id"]:
+            check_turns(ways)
+    return count
+
+
+def check_turns(ways):
+    """The angular velocities of the messages turn the frames of `/tf` from one to the next. In sum, noise averages out and a wrong hand does not."""
+    turns = np.array([Rotation.from_matrix(rotation.T @ after).as_rotvec() for (_, rotation, _), (_, after, _) in zip(ways, ways[1:])])
+    rates = np.array([xyz(message.angular_velocity) * (after[0] - begin) for (begin, _, message), after in zip(ways, ways[1:])])
+    wanted, found = np.abs(turns).sum(0), (np.sign(turns) * rates).sum(0)
+    assert (np.abs(found - wanted) < 0.05 + 0.05 * wanted).all(), (found, wanted)
+
+
 def check_bag(bag):
     id = bag.name
     known, flight = frames[id], flights[id]
-    by_time, latched, seen = defaultdict(dict), {}, 0
+    by_time, latched, told, places, seen = defaultdict(dict), {}, defaultdict(list), {}, 0
     with AnyReader([bag]) as reader:
         for connection in reader.connections:
             qualities = connection.ext.offered_qos_profiles
             assert [it.durability.value for it in qualities] == ([1] if connection.topic in LATCHED else []), (connection.topic, qualities)
         for connection, time_ns, raw in reader.messages():
             message = reader.deserialize(raw, connection.msgtype)
-            (latched if connection.topic in LATCHED else by_time[time_ns])[connection.topic] = message
+            if connection.topic.startswith("/sensor/"):
+                told[connection.topic].append((time_ns, message))
+            elif connection.topic == "/tf" and message.transforms[0].child_frame_id in sensors:
+                (it,) = message.transforms
+                places[it.child_frame_id, time_ns] = it.header.frame_id, matrix(it.transform.rotation), xyz(it.transform.translation)
+            else:
+                (latched if connection.topic in LATCHED else by_time[time_ns])[connection.topic] = message
+    readings.append(check_sensors(id, told, places))
     assert len(by_time) == len(known)
     tree, before = Tree(), None
     tree.add(latched["/tf_static"])
@@ -216,6 +305,8 @@ assert {bag.name for bag in bags} == set(flights)
 total = np.sum([check_bag(bag) for bag in bags], axis=0)
 assert total[1], "no picture shows enough of the target"
 print(f"{len(bags)} bags, {total[0]} frames, {total[1]} with the target found in the depths, {total[2]} markers")
+of_kinds = {kind: sum(it[kind] for it in readings) for kind in sorted({kind for it in readings for kind in it})}
+print("readings of sensors, equal to their tables:", ", ".join(f"{count} of {kind}" for kind, count in of_kinds.items()) or "none")
 print(f"rosbags and mcap-ros2-support agree in {both_readers_agree(bags[0])} messages")
 print(f"{definitions_are_those_of_ros(bags[0])} definitions have the hashes of ROS 2 Humble")
 imported_by_rerun(*bags[0].glob("*.mcap"), "EncodedImage", "DepthImage", "Transform3D", "Pinhole")
