@@ -194,6 +194,39 @@ fn a_refused_export_leaves_nothing_behind() {
     }
 }
 
+/// The bytes of a log with one changed.
+fn with_another_byte(bytes: &[u8], at: usize) -> Vec<u8> {
+    let mut changed = bytes.to_vec();
+    changed[at] ^= 0x10;
+    changed
+}
+
+#[test]
+fn an_export_of_a_log_with_a_changed_byte_is_refused_or_the_same() {
+    let (home, dataset) = published();
+    let log = dataset.folder().join(&dataset.flights()[0].mcap_path);
+    let bytes = std::fs::read(&log).unwrap();
+    let out = |name: &str| home.path().join(name);
+    let mut refused = 0;
+    for format in ["ros2", "webdataset"] {
+        export(&dataset, format, &out(format)).unwrap();
+        let whole = files(&out(format));
+        for (number, at) in (0..bytes.len()).step_by(bytes.len() / 30).enumerate() {
+            std::fs::write(&log, with_another_byte(&bytes, at)).unwrap();
+            let name = format!("{format}-{number}");
+            match export(&dataset, format, &out(&name)) {
+                Ok(_) => assert!(files(&out(&name)) == whole, "`{format}`: byte {at} of the log changed the export"),
+                Err(refusal) => {
+                    assert!(refusal.code.starts_with("dataset-"), "`{format}`, byte {at}: {refusal:?}");
+                    refused += 1;
+                }
+            }
+        }
+        std::fs::write(&log, &bytes).unwrap();
+    }
+    assert!(refused > 15, "{refused} of 60 changes were seen");
+}
+
 #[test]
 fn channels_on_request_are_files_of_every_export_of_pictures() {
     let home = tempfile::tempdir().unwrap();

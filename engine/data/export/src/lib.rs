@@ -30,6 +30,7 @@ pub mod sequence;
 pub mod shared_options;
 pub mod single_target;
 pub mod source;
+mod whole_log;
 
 pub use called::flights_called;
 pub use folder::{OutFolder, Written};

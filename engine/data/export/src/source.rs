@@ -2,11 +2,13 @@
 
 use crate::called::flights_called;
 use crate::shared_options::InstructionLanguage;
+use crate::whole_log::whole_log;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::{Channel, channels};
 use cosfly_frames::Pose;
 use cosfly_read::{
     CaptionReader, FrameRow, LogReader, LoggedFrame, LoggedSweep, PublishedDataset, PublishedFlight, RowIndex,
+    inner_path,
 };
 use cosfly_schema::CaptionRecord;
 use cosfly_schema::log::reading::LoggedSensor;
@@ -41,6 +43,8 @@ pub struct Source<'a> {
     all: Cell<u64>,
     /// Flights whose instruction is not in the wanted language: in another one, and a plain one without any caption.
     fallen_back: RefCell<[BTreeSet<String>; 2]>,
+    /// Trajectory ids of the films whose logs are whole.
+    whole: RefCell<BTreeSet<String>>,
 }
 
 /// A flight with its frames.
@@ -95,6 +99,7 @@ impl<'a> Source<'a> {
             done: Cell::new(0),
             all: Cell::new(all),
             fallen_back: RefCell::default(),
+            whole: RefCell::default(),
         })
     }
 
@@ -200,12 +205,26 @@ impl<'a> Source<'a> {
         Ok(self.dataset.tracks(self.rows()?, &[place].into())?.remove(&place).map_or(vec![], |track| track.poses))
     }
 
+    /// Opens the log of a film, which is compared with its checksums the first time.
+    ///
+    /// # Errors
+    /// Damage of the log.
+    pub fn log(&self, film: &PublishedFlight) -> Result<LogReader> {
+        let log = self.dataset.log(film)?;
+        if self.whole.borrow_mut().insert(film.trajectory_id.clone())
+            && let Some(path) = inner_path(self.dataset.folder(), &film.mcap_path)
+        {
+            whole_log(&path)?;
+        }
+        Ok(log)
+    }
+
     /// Readings of the sensors of a flight that are no cameras.
     ///
     /// # Errors
     /// Damage of the log.
     pub fn readings(&self, flight: &PublishedFlight) -> Result<Vec<SensorReadings>> {
-        let mut log = self.dataset.log(flight)?;
+        let mut log = self.log(flight)?;
         log.sensors().into_iter().map(|sensor| log.readings(&sensor).map(|all| (sensor, all))).collect()
     }
 
@@ -229,7 +248,7 @@ impl ExportedFlight<'_> {
     /// # Errors
     /// Damage of the log.
     pub fn sweeps(&self) -> Result<Vec<LidarSweeps>> {
-        let mut log = self.source.dataset.log(self.flight)?;
+        let mut log = self.source.log(self.flight)?;
         log.lidars().into_iter().map(|lidar| log.sweeps(&lidar).map(|all| (lidar, all))).collect()
     }
 
@@ -279,6 +298,11 @@ impl ExportedFlight<'_> {
         done: &dyn Fn(usize),
     ) -> Result<()> {
         let dataset = self.source.dataset;
+        let mut open = logs.lock().unwrap_or_else(PoisonError::into_inner);
+        if open.is_empty() {
+            open.push(self.source.log(flight)?);
+        }
+        drop(open);
         let made_of = |frame: &usize| {
             // Each thread opens the log once at most.
             let open = logs.lock().unwrap_or_else(PoisonError::into_inner).pop();

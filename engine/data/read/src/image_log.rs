@@ -208,20 +208,11 @@ fn read_at(file: &File, buffer: &mut [u8], at: u64) -> std::io::Result<()> {
     std::os::unix::fs::FileExt::read_exact_at(file, buffer, at)
 }
 
-/// Reads at a place; the position of the file is not used elsewhere.
+/// Reads at a place; the position of the file is not used elsewhere. Windows reads less than asked for at the end of a file alone.
 #[cfg(windows)]
-fn read_at(file: &File, buffer: &mut [u8], mut at: u64) -> std::io::Result<()> {
-    let mut rest = buffer;
-    while !rest.is_empty() {
-        match std::os::windows::fs::FileExt::seek_read(file, rest, at)? {
-            0 => return Err(std::io::ErrorKind::UnexpectedEof.into()),
-            read => {
-                rest = &mut rest[read..];
-                at += read as u64;
-            }
-        }
-    }
-    Ok(())
+fn read_at(file: &File, buffer: &mut [u8], at: u64) -> std::io::Result<()> {
+    let read = std::os::windows::fs::FileExt::seek_read(file, buffer, at)?;
+    if read == buffer.len() { Ok(()) } else { Err(std::io::ErrorKind::UnexpectedEof.into()) }
 }
 
 fn u32_at(bytes: &[u8], at: usize) -> u32 {

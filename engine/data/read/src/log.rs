@@ -20,6 +20,9 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+/// Encoding of all messages of our logs.
+const ENCODING: &str = "protobuf";
+
 /// Callback for the topic, time (nanoseconds) and bytes of a message; returns what is wrong with it.
 pub type Visit<'a> = &'a mut dyn FnMut(&str, u64, &[u8]) -> Result<(), String>;
 
@@ -141,9 +144,13 @@ impl LogReader {
     }
 
     /// Obstacles near the flight.
+    ///
+    /// # Errors
+    /// `dataset-damaged`, also where the log does not tell of them.
     pub fn scene(&mut self) -> Result<Vec<LoggedBox>> {
-        let mut boxes = vec![];
+        let (mut boxes, mut is_told) = (vec![], false);
         self.messages(0..=0, &[topic::SCENE], &mut |_, _, data| {
+            is_told = true;
             let update = messages::SceneUpdate::decode(data).map_err(|error| error.to_string())?;
             for entity in update.entities.iter().filter(|entity| entity.frame_id == MAP_FRAME) {
                 let label = entity.id.rsplit('/').next().unwrap_or_default();
@@ -151,7 +158,7 @@ impl LogReader {
             }
             Ok(())
         })?;
-        Ok(boxes)
+        if is_told { Ok(boxes) } else { Err(self.damaged(&format!("it has no message on `{}`", topic::SCENE))) }
     }
 
     /// Sensors that are no cameras, by name.
@@ -218,6 +225,15 @@ impl LogReader {
     /// # Errors
     /// `dataset-damaged`.
     pub fn messages(&mut self, times_ns: RangeInclusive<u64>, topics: &[&str], visit: Visit<'_>) -> Result<()> {
+        let mut known = self.summary.channels.values().filter(|channel| topics.contains(&channel.topic.as_str()));
+        if let Some(other) = known.clone().find(|channel| channel.message_encoding != ENCODING) {
+            let (topic, found) = (&other.topic, &other.message_encoding);
+            return Err(self.damaged(&format!("messages on `{topic}` have the encoding `{found}`, not `{ENCODING}`")));
+        }
+        if known.next().is_none() {
+            // Without a topic that it knows, the library would read all of them.
+            return Ok(());
+        }
         let options = IndexedReaderOptions::new()
             .include_topics(topics.iter().copied())
             .starting_at(*times_ns.start())
@@ -310,13 +326,9 @@ impl LoggedFrame {
                 self.depth_m = depths.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
             }
             ChannelSource::Labels => self.semantic = image.data.to_vec(),
-            ChannelSource::Ids if format.pixel_bytes == 2 => {
-                let (ids, _) = image.data.as_chunks::<2>();
-                self.instance = ids.iter().map(|bytes| u32::from(u16::from_le_bytes(*bytes))).collect();
-            }
             ChannelSource::Ids => {
-                let (ids, _) = image.data.as_chunks::<4>();
-                self.instance = ids.iter().map(|bytes| u32::from_le_bytes(*bytes)).collect();
+                let id = |bytes: &[u8]| bytes.iter().rev().fold(0, |id, byte| id << 8 | u32::from(*byte));
+                self.instance = image.data.chunks_exact(format.pixel_bytes).map(id).collect();
             }
             ChannelSource::Colour => {}
             // On request.
