@@ -98,7 +98,46 @@ def check_bag(bag, steps):
             linear, angular = asked[time].twist.linear, asked[time].twist.angular
             assert (linear.x, linear.y, linear.z) == (ahead, -right, up)
             assert math.isclose(math.degrees(-angular.y), pitch) and math.isclose(math.degrees(-angular.z), yaw)
+    check_frames(topics, steps)
     return len(steps)
+
+
+def check_frames(topics, steps):
+    """Frames of camera and commands by the angles of the steps, computed anew; motion, inertial unit and receiver by the places of the frames."""
+    import numpy as np
+    from scipy.spatial.transform import Rotation
+    from shared import world_from_body
+
+    mirror = np.diag([1.0, -1, 1])
+    xyz = lambda it: np.array([it.x, it.y, it.z])
+    turn = lambda q: Rotation.from_quat([q.x, q.y, q.z, q.w])
+    bodies = [turn(message.pose.pose.orientation) for _, message in topics["/odom"]]
+    for step, body, (_, odometry), (_, tf) in zip(steps, bodies, topics["/odom"], topics["/tf"], strict=True):
+        edges = {it.child_frame_id: (it.header.frame_id, turn(it.transform.rotation), xyz(it.transform.translation)) for it in tf.transforms}
+        at = mirror @ step["position_in_world"]
+        for frame, angles in ("camera_link", (step["pitch_deg"], step["yaw_deg"], 0)), ("base_stabilized", (0, step["yaw_deg"], 0)):
+            parent, found, place = edges[frame]
+            found, place = (body * found, at + body.apply(place)) if parent == "base_link" else (found, place)
+            assert np.allclose(found.as_matrix(), mirror @ world_from_body(*angles) @ mirror, atol=1e-9) and np.allclose(place, at), frame
+        assert np.allclose(edges["base_link"][1].as_matrix(), body.as_matrix()) and np.allclose(edges["base_link"][2], at)
+        assert np.allclose(body.apply(xyz(odometry.twist.twist.linear)), mirror @ step["velocity_in_world"], atol=1e-9)
+    assert {message.header.frame_id for _, message in topics["/cmd_vel"]} <= {"base_stabilized"}
+    times, speeds = np.array([time for time, _ in topics["/odom"]]) / 1e9, np.array([mirror @ step["velocity_in_world"] for step in steps])
+    sensed = np.array([[time / 1e9, *xyz(it.angular_velocity), *xyz(it.linear_acceleration)] for time, it in topics["/imu"]]).reshape(-1, 7)
+    wrong = []
+    for first, (begin, end) in enumerate(zip(times, times[1:])):
+        within = sensed[(sensed[:, 0] > begin) & (sensed[:, 0] <= end), 1:]
+        if len(within) > 1:
+            middle = Rotation.concatenate(bodies[first : first + 2]).mean()
+            turned = (bodies[first].inv() * bodies[first + 1]).as_rotvec() / (end - begin)
+            felt = (speeds[first + 1] - speeds[first]) / (end - begin) + [0, 0, 9.81]
+            wrong.append([*np.abs(within[:, :3].mean(0) - turned), *np.abs(middle.apply(within[:, 3:].mean(0)) - felt)])
+    if wrong:
+        assert (np.mean(wrong, axis=0) < [0.02, 0.02, 0.02, 0.15, 0.15, 0.15]).all(), np.mean(wrong, axis=0)
+        fixes = [(xyz(it.pose.pose.position), mirror @ steps[round((time / 1e9 - times[0]) / (times[1] - times[0]))]["position_in_world"])
+                 for time, it in topics["/gnss"] if time / 1e9 <= times[-1]]
+        away = np.abs(np.mean([place - true for place, true in fixes], axis=0))
+        assert (away < [6, 6, 12]).all(), away
 
 
 if len(sys.argv) > 2:

@@ -128,7 +128,7 @@ fn a_closed_loop_flight_becomes_a_bag_with_its_actions_and_sensors() {
         assert_eq!(of(topic).len(), count, "{topic}");
     }
     let [asked, _] = &of("/cmd_vel")[..] else { panic!("two actions") };
-    let numbers: Vec<f64> = asked.3[4 + 24..].as_chunks::<8>().0.iter().map(|it| f64::from_le_bytes(*it)).collect();
+    let numbers: Vec<f64> = asked.3[4 + 32..].as_chunks::<8>().0.iter().map(|it| f64::from_le_bytes(*it)).collect();
     let (pitch, yaw) = (30_f64.to_radians(), 60_f64.to_radians());
     assert_eq!((asked.2, &numbers[..]), (1_200_000_000, &[4.0, -3.0, 2.0, 0.0, -pitch, -yaw][..]));
     let (home, dataset) = published();

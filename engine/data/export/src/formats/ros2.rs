@@ -179,8 +179,12 @@ impl<'a> Recording<'a> {
                 list.push(("base_link", &names.link, camera_on_drone(&episode.flight.mount, &row.pose)));
             }
         }
+        // Fixed to one airframe: what tells no place has the turn of the inertial unit, and its place.
+        let unit = self.coders.iter().find(|coder| coder.has_pose());
+        let beside = self.coders.iter().filter(|coder| coder.is_nowhere());
+        list.extend(unit.iter().flat_map(|unit| beside.clone().map(|it| (unit.frame(), it.frame(), still))));
         bag.write(Topic::TfStatic, START_NS, &messages::transforms(START_NS, &list))?;
-        let boxes = source.dataset.log(self.films[0].episode.flight)?.scene()?;
+        let boxes = source.log(self.films[0].episode.flight)?.scene()?;
         bag.write(Topic::Town, START_NS, &messages::markers(Header { time_ns: START_NS, frame: "map" }, &boxes))?;
         bag.write(Topic::Instruction, START_NS, &messages::string(instruction))
     }
@@ -386,7 +390,8 @@ A folder is a bag: MCAP, messages of ROS 2 Humble and later in CDR, with their d
 | `/detections` | `vision_msgs/Detection2DArray` | boxes around visible pixels, with the body's kind; `id` is the dataset's instance id, 1 the target. No poses |
 | `/sensor/NAME` | by its columns | readings of each sensor that the dataset has, in the frame `NAME`: inertial units as `sensor_msgs/Imu`, receivers as \
 `NavSatFix`, barometers as `FluidPressure`, magnetometers as `MagneticField`; others as `std_msgs/Float64MultiArray`, \
-the label of whose only dimension names the quantities. `/tf` has the true place of each inertial unit, `map` to `NAME` |
+the label of whose only dimension names the quantities. `/tf` has the true place of each inertial unit and receiver, `map` to `NAME`; \
+barometers and magnetometers hang at the inertial unit in `/tf_static` |
 | `/sensor/LIDAR` | `sensor_msgs/PointCloud2` | sweeps of each lidar, in the frame `LIDAR` at the time of each point's shot; `/tf` has its \
 place at the beginning of the sweep |
 | `/town`* | `visualization_msgs/MarkerArray` | boxes of obstacles near the flight |

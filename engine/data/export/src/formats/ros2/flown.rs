@@ -7,9 +7,10 @@ use super::readings::ReadingCoder;
 use super::{START_NS, motion};
 use crate::folder::{OutFolder, Written};
 use crate::media::FOLDER_LIMIT;
+use crate::whole_log::whole_log;
 use cosfly_diagnose::Result;
 use cosfly_domain::{Lens, Mount};
-use cosfly_frames::{DQuat, DVec3};
+use cosfly_frames::{DQuat, DVec3, real};
 use cosfly_read::{LogReader, LoggedBox};
 use cosfly_schema::log::{FrameTimes, right_handed};
 use std::path::{Path, PathBuf};
@@ -32,6 +33,9 @@ const TOPICS: [(Topic, &str, &str, bool); 14] = [
     (Topic::Fix, "/gnss", "nav_msgs/Odometry", false),
 ];
 
+/// Frame of commands: at the drone, level, with its heading.
+const LEVEL: &str = "base_stabilized";
+
 /// Quantities of a step.
 const STEP: [&str; 10] =
     ["tracked", "visible", "distance_m", "reward", "visibility", "framing", "distance", "effort", "collision", "loss"];
@@ -49,7 +53,9 @@ pub fn flown_bags(
 ) -> Result<Written> {
     let folder = OutFolder::begin(out, result)?;
     for (number, (name, log)) in flights.iter().enumerate() {
-        let mut log = LogReader::open(log, FrameTimes::default())?;
+        let path = log;
+        let mut log = LogReader::open(path, FrameTimes::default())?;
+        whole_log(path)?;
         let (boxes, log) = (log.scene()?, FlownLog::read(&mut log)?);
         let topics =
             TOPICS.into_iter().map(|(topic, name, kind, is_latched)| (topic, name.to_owned(), kind, is_latched));
@@ -109,7 +115,16 @@ impl<'a> Flown<'a> {
         let header = |frame| Header { time_ns, frame };
         bag.write(Topic::Clock, time_ns, &messages::clock(time_ns))?;
         let camera = Placed { position: DVec3::ZERO, rotation: drone.rotation.inverse() * step.drone.1 };
-        let list = [("odom", "base_link", drone), ("base_link", "camera_link", camera), ("map", "target", target)];
+        // The camera never rolls: its left is level.
+        let left = step.drone.1 * DVec3::Y;
+        let (sin, cos) = real::sin_cos(0.5 * real::atan2(-left.x, left.y));
+        let level = Placed { rotation: DQuat::from_xyzw(0.0, 0.0, sin, cos), ..drone };
+        let list = [
+            ("odom", "base_link", drone),
+            ("odom", LEVEL, level),
+            ("base_link", "camera_link", camera),
+            ("map", "target", target),
+        ];
         bag.write(Topic::Tf, time_ns, &messages::transforms(time_ns, &list))?;
         let velocity = vector(&step.outcome.velocity_mps);
         let flown = Motion {
@@ -126,7 +141,7 @@ impl<'a> Flown<'a> {
                 let (pitch, yaw) = (pitch_deg_s.to_radians(), yaw_deg_s.to_radians());
                 // Up and to the right are turns around minus y and minus z.
                 let asked = Motion { linear: DVec3::new(ahead, -right, up), angular: DVec3::new(0.0, -pitch, -yaw) };
-                bag.write(Topic::Command, time_ns, &messages::twist(header("base_link"), &asked))?;
+                bag.write(Topic::Command, time_ns, &messages::twist(header(LEVEL), &asked))?;
             }
             [] => {}
             _ => {
@@ -175,14 +190,15 @@ const README: &str = "\
 # Closed-loop flights as ROS 2 bags
 
 `<thousands of flights>/<episode>/` is a bag: MCAP, messages of ROS 2 Humble and later in CDR, with their definitions. The first time is 1 s
-plus the first step. Frames are those of REP 103 and REP 105: `map`, `odom`, `base_link`, `camera_link`, `camera_optical_frame`, `target`.
+plus the first step. Frames are those of REP 103 and REP 105: `map`, `odom`, `base_link`, `camera_link`, `camera_optical_frame`, `target`; `base_stabilized` is level at the drone, with
+its heading.
 
 | topic | type | content |
 | --- | --- | --- |
-| `/tf_static`, `/tf` | `tf2_msgs/TFMessage` | `odom` to `base_link`, `base_link` to `camera_link`, `map` to `target` |
+| `/tf_static`, `/tf` | `tf2_msgs/TFMessage` | `odom` to `base_link` and `base_stabilized`, `base_link` to `camera_link`, `map` to `target` |
 | `/clock` | `rosgraph_msgs/Clock` | the time of the step |
 | `/odom`, `/target/odom` | `nav_msgs/Odometry` | true pose and motion along the body's axes |
-| `/cmd_vel` | `geometry_msgs/TwistStamped` | the action before the step: velocities ahead, left and up in a level frame with the drone's heading, rates of the camera's pitch and the drone's yaw |
+| `/cmd_vel` | `geometry_msgs/TwistStamped` | the action before the step: velocities ahead, left and up in `base_stabilized`, rates of the camera's pitch and the drone's yaw |
 | `/flight/action` | `std_msgs/Float64MultiArray` | numbers of an action of another kind |
 | `/flight/step` | `std_msgs/Float64MultiArray` | tracked, visible, distance_m, reward and its six terms |
 | `/flight/events` | `std_msgs/String` | losses, reacquisitions, collisions, the end |

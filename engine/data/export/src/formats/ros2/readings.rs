@@ -38,6 +38,9 @@ const KINDS: [Kind; 4] = [
 /// Columns with the true place and turn of a sensor.
 const POSE: [&str; 7] = ["true_x_m", "true_y_m", "true_z_m", "true_qx", "true_qy", "true_qz", "true_qw"];
 
+/// Columns with the true place of a sensor that has no turn, east, north and up: axes of `map`.
+const PLACE: [&str; 3] = ["true_east_m", "true_north_m", "true_up_m"];
+
 /// How readings of a sensor become messages.
 pub struct ReadingCoder<'a> {
     sensor: &'a LoggedSensor,
@@ -45,6 +48,8 @@ pub struct ReadingCoder<'a> {
     kind: Option<(&'static Kind, Vec<usize>)>,
     /// Places of the columns with its pose.
     pose: Option<Vec<usize>>,
+    /// Places of the columns with its place alone.
+    place: Option<Vec<usize>>,
 }
 
 impl<'a> ReadingCoder<'a> {
@@ -53,7 +58,7 @@ impl<'a> ReadingCoder<'a> {
         let place = |name: &&str| sensor.quantities.iter().position(|it| it == name);
         let places = |names: &[&str]| names.iter().map(place).collect::<Option<Vec<usize>>>();
         let kind = KINDS.iter().find_map(|kind| Some((kind, places(kind.columns)?)));
-        Self { sensor, kind, pose: places(&POSE) }
+        Self { sensor, kind, pose: places(&POSE), place: places(&PLACE) }
     }
 
     /// Type of its messages.
@@ -70,8 +75,27 @@ impl<'a> ReadingCoder<'a> {
         }
     }
 
+    /// Name of the sensor and of its frame.
+    pub fn frame(&self) -> &'a str {
+        &self.sensor.name
+    }
+
+    /// Whether its readings tell its pose.
+    pub fn has_pose(&self) -> bool {
+        self.pose.is_some()
+    }
+
+    /// Whether its messages have a frame whose place no reading tells.
+    pub fn is_nowhere(&self) -> bool {
+        self.kind.is_some() && self.pose.is_none() && self.place.is_none()
+    }
+
     /// True place of the sensor in `map`, of those that know it.
     pub fn placed(&self, values: &[f64]) -> Option<(&'a str, Placed)> {
+        if let Some(place) = &self.place {
+            let position = DVec3::from_array(picked(place, values).try_into().ok()?);
+            return Some((&self.sensor.name, Placed { position, rotation: DQuat::IDENTITY }));
+        }
         let pose = picked(self.pose.as_ref()?, values);
         let [x, y, z, qx, qy, qz, qw] = pose.try_into().ok()?;
         // The mirror of y turns a rotation's axis as that of a turn: x and z change their signs.
@@ -168,6 +192,9 @@ mod tests {
             assert_eq!(coder.message(), message);
             assert!(coder.placed(&[0.0; 5]).is_none());
         }
+        let unit = sensor(&["true_up_m", "pressure_hpa", "true_east_m", "true_north_m"]);
+        let (_, placed) = ReadingCoder::of(&unit).placed(&[3.0, 0.0, 1.0, 2.0]).expect("a place");
+        assert_eq!((placed.position, placed.rotation), (DVec3::new(1.0, 2.0, 3.0), DQuat::IDENTITY));
         let unit = sensor(&["is_fix", "up_m", "latitude_deg", "longitude_deg"]);
         let message = ReadingCoder::of(&unit).encode(0, &[0.0, 0.0, 0.0, 0.0]);
         assert_eq!(message[4 + 17], u8::MAX, "no fix");
