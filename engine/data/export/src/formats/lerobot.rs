@@ -210,7 +210,9 @@ fn fps(dt_s: f64) -> Result<u32> {
     let fps = (1.0 / dt_s).round_ties_even();
     if !(1.0..=1000.0).contains(&fps) || (fps * dt_s - 1.0).abs() > 1e-9 {
         let message = format!("{dt_s} s between frames is not a whole number of frames per second");
-        return Err(Diagnostic::new("export-lerobot", Fault::Recipe, message));
+        return Err(Diagnostic::new("export-lerobot", Fault::Recipe, message).hint(
+            "LeRobot counts whole frames per second: film with another `dt_s`, such as 0.1, 0.25 or 0.5, or with `every`",
+        ));
     }
     Ok(fps as u32)
 }
