@@ -1,16 +1,19 @@
 """Opens `cosfly view` in headless Chromium: worst flight, filter, scrubbing, hostile texts, broken logs, narrow windows, the exported page.
 
-Usage: `check_view.py COSFLY DATASET WORK [--screenshots FOLDER] [--many COUNT] [--timed]`. WORK is a folder for copies of DATASET. With `--many`,
-first view and scrubbing are timed with that many copies of its flights, and with `--timed`, on an idle machine, times are held, too. Needs
-`playwright`, `axe-playwright-python`, `pyarrow`, and a Chromium: that of playwright, or one on the PATH."""
+Usage: `check_view.py COSFLY DATASET WORK [--results FOLDER] [--screenshots FOLDER] [--many COUNT] [--timed]`. WORK is a folder for copies of
+DATASET, `--results` a folder of `cosfly fly` with several policies. With `--many`, first view and scrubbing are timed with that many copies of its
+flights, and with `--timed`, on an idle machine, times are held, too. Needs `playwright`, `axe-playwright-python`, `pyarrow`, and a Chromium: that
+of playwright, or one on the PATH."""
 
 import contextlib
+import re
 import shutil
 import subprocess
 import time
 from pathlib import Path
 
 import pyarrow as pa
+import pyarrow.compute
 import pyarrow.parquet as pq
 from playwright.sync_api import sync_playwright
 from shared import chromium_of, command_line, end_with, faults_of_page, watch, with_column
@@ -20,8 +23,9 @@ PAINTED_MS = 100.0
 MOST_SERVER_MB = 500
 HOSTILE = "<img src=x onerror=\"document.title='owned'\">"
 CHINESE = "晴朗的夜晚"
+CHINESE_LETTERS = re.compile("[\u4e00-\u9fff]{4}")
 
-arguments = command_line("cosfly dataset work", screenshots=Path, many=int, timed=False)
+arguments = command_line("cosfly dataset work", results=Path, screenshots=Path, many=int, timed=False)
 problems = []
 
 
@@ -71,6 +75,14 @@ def painted(page, frame):
     )
 
 
+def all_painted(page):
+    """Waits until every picture, also that of the flight beside, shows the frame of the map."""
+    page.wait_for_function(
+        "() => { const panes = [...document.querySelectorAll('#pictures canvas')], { frame } = document.querySelector('#map').dataset;"
+        " return state.beside && panes.length > 3 && panes.every(it => it.dataset.frame !== undefined) && frame !== undefined; }"
+    )
+
+
 def check_whole(browser):
     """Worst flight first, its reason and its frame; filters; keys; links."""
     with served(arguments.dataset) as (address, _), opened(browser, address, "whole") as page:
@@ -89,7 +101,7 @@ def check_whole(browser):
             shown = page.evaluate("list.order")
             expect(sorted(shown) == [at for at, loss_s in enumerate(losses) if (loss_s > 0.5) == is_lost], f"`{query}` shows {shown}")
         for query, words in (("at night facing the sun (experts or twins)", "flight"), ("speed > 3", "no column `speed`"), ("losses_s >", "needs a value"),
-                             ("nothing-is-called-so", "no flight is like this"), ("(experts", "not closed"), ("losses_s = high", "with a number")):
+                             ("nothing-is-called-so", "no flight is like this"), ("(experts", "not closed"), ("losses_s = high", "with a number"), ("constructor", "no flight is like this")):
             page.fill("#query", query)
             expect(words in page.locator("#matches").inner_text(), f"`{query}`: {page.locator('#matches').inner_text()}")
         page.fill("#query", "")
@@ -177,6 +189,39 @@ def check_empty(browser):
         page.close()
 
 
+def check_one(browser):
+    """A single flight, in a folder with a Chinese name and a Chinese title, in a narrow window."""
+    folder = copy("一次飞行")
+    for table in ("trajectories", "frames", "captions"):
+        for path in folder.glob(f"data/{table}/*.parquet"):
+            rows = pq.read_table(path)
+            pq.write_table(rows.filter(pa.compute.equal(rows["trajectory_id"], "expert-p00000")), path)
+    with served(folder) as (address, _), opened(browser, address, "one", viewport={"width": 360, "height": 740}) as page:
+        page.wait_for_selector("#pictures canvas[data-frame]")
+        expect("1 flight" in page.locator("#matches").inner_text() or page.locator(".row").count() == 1, "a single flight is not the only one")
+        expect(page.evaluate("state.flight.name") == "expert-p00000", "the only flight is not chosen")
+        expect(CHINESE_LETTERS.search(page.locator("#words").inner_text()), "Chinese captions are not shown")
+        for key in ("ArrowDown", "ArrowUp", "l", "End"):
+            page.keyboard.press(key)
+        shoot(page, "one-narrow")
+
+
+def check_results(browser):
+    """Policy beside policy: the worst episode, its reason and its frame."""
+    with served(arguments.results) as (address, _), opened(browser, address, "results") as page:
+        page.wait_for_function("() => state.beside")
+        rates = page.evaluate("state.index.columns.find(it => it.name == 'tracking_rate').numbers")
+        number = page.evaluate("state.flight.number")
+        expect(rates[number] == min(rates), f"episode {number} with {rates[number]} is shown first, another one has {min(rates)}")
+        reason, losses = page.locator("#reason").inner_text(), page.evaluate("state.flight.losses")
+        longest = max(losses, key=lambda it: it["end"] - it["from"])
+        expect(f"from frame {longest['from']}" in reason and f"(frame {page.evaluate('state.flight.x.length') - 1})" in reason, f"frames are not in `{reason}`")
+        expect(page.evaluate("state.frame") == longest["from"], "the page does not open with the longest loss")
+        policies = page.evaluate("[state.flight.facts, state.beside.facts].map(it => Object.fromEntries(it).policy)")
+        expect(len(set(policies)) == 2, f"beside stands {policies}")
+        shoot(page, "results")
+
+
 def copy(name):
     """A copy of the dataset."""
     folder = arguments.work / name
@@ -250,7 +295,7 @@ def check_many(browser):
     with served(folder) as (address, process):
         ready_s, began = time.monotonic() - began, time.monotonic()
         with opened(browser, address, "many") as page:
-            page.wait_for_selector("#pictures canvas[data-frame]")
+            all_painted(page)
             first_s = time.monotonic() - began
             shoot(page, "many")
             frames = page.evaluate("state.flight.x.length")
@@ -288,7 +333,8 @@ def check_many(browser):
 with sync_playwright() as playwright:
     chromium = chromium_of(playwright)
     arguments.work.mkdir(parents=True, exist_ok=True)
-    for check in [check_whole, check_places, check_empty, check_hostile, check_exported] + [check_many] * bool(arguments.many):
+    checks = [check_whole, check_places, check_empty, check_one, check_hostile, check_exported]
+    for check in checks + [check_results] * bool(arguments.results) + [check_many] * bool(arguments.many):
         check(chromium)
     chromium.close()
 

@@ -21,7 +21,7 @@ function filterOf(text, index) {
   const tokens = plain.match(/"[^"]*"|<=|>=|!=|[<>=:()]|[^\s<>=:()!"]+|[!"]/g) || [];
   let at = 0;
   const next = () => tokens[at];
-  const isOperator = token => token !== undefined && (token in COMPARISONS || token === ":");
+  const isOperator = token => token !== undefined && (Object.hasOwn(COMPARISONS, token) || token === ":");
 
   function either() {
     const parts = [all()];

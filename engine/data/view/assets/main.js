@@ -126,7 +126,7 @@ function showFlight() {
   showParts(true);
   tell(problem && [problem.message, ...problem.causes, ...problem.hints].join("\n"));
   $("title").textContent = flight.name;
-  $("reason").textContent = list.value("reason", flight.number) || "";
+  $("reason").textContent = flight.reason || list.value("reason", flight.number) || "";
   $("frame").max = Math.max(0, flight.x.length - 1);
   $("facts").replaceChildren(...flight.facts.map(([name, value]) => row(name, value)));
   $("beside").replaceChildren(Object.assign(element("option", "nothing"), { value: "" }), ...flight.family

@@ -45,11 +45,15 @@ impl ResultsSubject {
     /// Opens the result of a policy, or those of all policies in a folder.
     ///
     /// # Errors
-    /// `fly-result`.
+    /// `fly-result`, `view-outside`.
     pub fn open(path: &Path) -> Result<Self> {
         let folders = if path.join("card.json").is_file() { vec![path.to_owned()] } else { policies(path) };
         let (mut name, mut flights) = (String::new(), vec![]);
         for folder in folders {
+            let inner = folder.strip_prefix(path).unwrap_or(&folder);
+            for file in ["card.json", "episodes.jsonl"].map(|file| inner.join(file)) {
+                inside(path, &file.to_string_lossy())?;
+            }
             let (card, rows) = Folder::read(&folder)?;
             name.clone_from(&card.suite.name);
             let policy = folder.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
@@ -83,6 +87,16 @@ impl Flight {
             false => String::new(),
         };
         ending(&self.row) + &lost
+    }
+
+    /// The reason with its frames.
+    fn reason_at(&self, losses: &[(usize, usize)]) -> String {
+        let last = format!(" (frame {})", self.row.score.steps.saturating_sub(1));
+        let longest = losses.iter().max_by_key(|(from, end)| (end - from, std::cmp::Reverse(*from)));
+        let lost = longest.map_or_else(String::new, |(from, end)| {
+            format!(", not tracked for {:.1} s from frame {from}", (end - from) as f64 * self.row.step_s)
+        });
+        ending(&self.row) + &last + &lost
     }
 }
 
@@ -124,15 +138,16 @@ impl ViewSubject for ResultsSubject {
         let column = |of: &dyn Fn(&LogLine) -> f64| lines.iter().map(|line| short(of(line))).collect::<Vec<_>>();
         let same = self.flights.iter().enumerate().filter(|(_, other)| other.row.episode == flight.row.episode);
         let family: Vec<Value> = same.map(|(number, it)| json!({ "number": number, "name": it.policy })).collect();
-        let losses: Vec<Value> = losses(&lines)
-            .into_iter()
-            .map(|(from, end)| json!({ "from": from, "end": end, "cause": "not tracked" }))
-            .collect();
+        let losses = losses(&lines);
+        let reason = flight.reason_at(&losses);
+        let told = |(from, end): (usize, usize)| json!({ "from": from, "end": end, "cause": "not tracked" });
+        let losses: Vec<Value> = losses.into_iter().map(told).collect();
         let facts =
             [("policy", flight.policy.clone()), ("stratum", flight.row.stratum.clone()), ("end", ending(&flight.row))];
         let failure = flight.row.policy_failure.iter().map(|words| ("failure", words.clone()));
         Ok(json!({
-            "name": flight.row.episode, "town": flight.row.episode, "dt_s": flight.row.step_s, "family": family, "channels": [],
+            "name": flight.row.episode, "reason": reason, "town": flight.row.episode, "dt_s": flight.row.step_s, "family": family,
+            "channels": [],
             "facts": facts.into_iter().chain(failure).collect::<Vec<_>>(), "losses": losses, "crossings": [], "captions": [], "goals": [],
             "time_s": column(&|it| it.time_s), "x": column(&|it| it.position_in_world[0]), "y": column(&|it| it.position_in_world[1]),
             "z": column(&|it| it.position_in_world[2]), "camera_yaw_deg": column(&|it| it.yaw_deg),
