@@ -259,6 +259,38 @@ fn the_exported_page_of_a_result_has_the_towns_that_its_flights_name() {
 }
 
 #[test]
+#[cfg(unix)]
+fn a_result_tells_its_frames_and_no_file_of_it_leads_out() {
+    let street = Street::new();
+    let flown = street.path().join("flown");
+    cosfly(&["fly", "recipe.toml", "--out", "flown", "--policy", "follow", "--clips", "0"])
+        .within(street.path())
+        .run_ok();
+    let viewer = Viewer::start(street.path(), "flown");
+    let (_, flight) = viewer.json("/api/flight/0", &viewer.enter());
+    let frames = flight["x"].as_array().map_or(0, Vec::len);
+    let reason = flight["reason"].as_str().expect("a reason");
+    assert!(frames > 0 && reason.contains(&format!("(frame {})", frames - 1)), "{reason}");
+    let longest = flight["losses"].as_array().expect("losses").iter().max_by_key(|it| {
+        let at = |name: &str| it[name].as_u64().expect("a frame");
+        (at("end") - at("from"), std::cmp::Reverse(at("from")))
+    });
+    if let Some(longest) = longest {
+        assert!(reason.ends_with(&format!("from frame {}", longest["from"])), "{reason}");
+    }
+    drop(viewer);
+    for name in ["card.json", "episodes.jsonl"] {
+        let (file, outside) = (flown.join("follow").join(name), street.path().join(name));
+        std::fs::rename(&file, &outside).expect("moved");
+        std::os::unix::fs::symlink(&outside, &file).expect("linked");
+        let refused = cosfly(&["view", "flown", "--no-open"]).within(street.path()).run();
+        assert!(refused.stderr.contains("error[view-outside]") && refused.stderr.contains(name), "{}", refused.stderr);
+        std::fs::remove_file(&file).expect("removed");
+        std::fs::rename(&outside, &file).expect("moved back");
+    }
+}
+
+#[test]
 fn a_recipe_shows_what_of_it_is_made() {
     let street = Street::new();
     let progress = |viewer: &Viewer| {
