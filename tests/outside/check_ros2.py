@@ -108,10 +108,11 @@ def check_detections(message, row, others):
         assert (center.x + 0.5, center.y + 0.5) == ((left + right) / 2, (top + bottom) / 2)
 
 
-def check_geometry(of, tree, row):
+def check_geometry(of, tree, row, camera="/camera", optical="camera_optical_frame"):
     """Pixels of the target, back in the map, are where the target is; a bent lens is left out."""
-    flight, info = flights[row["trajectory_id"]], of["/camera/camera_info"]
-    depth, labels = of["/camera/depth/image_raw"], of["/camera/semantic/image_raw"]
+    flight, info = flights[row["trajectory_id"]], of[f"{camera}/camera_info"]
+    depth, labels = of[f"{camera}/depth/image_raw"], of[f"{camera}/semantic/image_raw"]
+    assert info.header.frame_id == depth.header.frame_id == labels.header.frame_id == optical
     assert (depth.encoding, labels.encoding, depth.step, labels.step) == ("32FC1", "mono8", 4 * depth.width, labels.width)
     depth = np.frombuffer(bytes(depth.data), np.float32).reshape(depth.height, depth.width)
     labels = np.frombuffer(bytes(labels.data), np.uint8).reshape(depth.shape)
@@ -125,7 +126,7 @@ def check_geometry(of, tree, row):
     v, u = np.add(np.nonzero(labels[top:bottom, left:right] == 12), [[top], [left]])
     z = depth[v, u].astype(float)
     rays = np.linalg.inv(np.array(info.k).reshape(3, 3)) @ np.array([u, v, np.ones(len(u))])
-    rotation, place = tree.in_map("camera_optical_frame")
+    rotation, place = tree.in_map(optical)
     points = (rotation @ (rays * z)).T + place
     away = np.median(points, axis=0) - tree.in_map("target")[1]
     assert np.hypot(*away[:2]) < 0.6 and 0 < away[2] < flight["target_height_m"], away
@@ -254,25 +255,35 @@ def check_bag(bag):
 
 
 def check_rig(bag):
-    """Each camera of a flight is where its film's rows have it, with the target's box, at its own times."""
+    """Each camera of a flight is where its film's rows have it, with the target's box and depths, at its own times; sensors are those of one film."""
     films = {flight["camera_name"]: id for id, flight in flights.items() if flight["flight_id"] == bag.name}
-    tree, told = Tree(), defaultdict(list)
+    tree, shown, told, places, seen = Tree(), defaultdict(list), defaultdict(list), {}, 0
     with AnyReader([bag]) as reader:
         for connection, time_ns, raw in reader.messages():
-            message = reader.deserialize(raw, connection.msgtype)
-            if connection.topic in ("/tf", "/tf_static"):
+            message, topic = reader.deserialize(raw, connection.msgtype), connection.topic
+            if topic in ("/tf", "/tf_static"):
                 tree.add(message)
-            elif connection.topic.endswith("/detections"):
-                camera = connection.topic.split("/")[2]
-                told[camera].append((time_ns, message, tree.in_map(f"camera_{camera}_optical_frame")))
-    assert set(told) == set(films) and len(films) > 1, bag
+                places |= {(it.child_frame_id, time_ns): tree.edges[it.child_frame_id] for it in message.transforms if it.child_frame_id in sensors}
+            elif topic.startswith("/sensor/"):
+                told[topic].append((time_ns, message))
+            elif topic.startswith("/camera/"):
+                camera = topic.split("/")[2]
+                if topic.endswith("/camera_info") and "/depth/" not in topic:
+                    shown[camera].append((time_ns, {}, tree.in_map(f"camera_{camera}_optical_frame")))
+                shown[camera][-1][1][topic] = message
+    assert set(shown) == set(films) and len(films) > 1, bag
     for camera, id in films.items():
-        for (time_ns, message, (rotation, found)), (frame, row) in zip(told[camera], sorted(frames[id].items()), strict=True):
+        for (time_ns, of, (rotation, found)), (frame, row) in zip(shown[camera], sorted(frames[id].items()), strict=True):
             assert time_ns == 10**9 + round(row["time_s"] * 1e9)
-            check_detections(message, row, people[id, frame])
+            check_detections(of[f"/camera/{camera}/detections"], row, people[id, frame])
             at = MIRROR @ np.array(row["camera_in_world_m"] or place(row, "drone"))
             assert np.allclose(found, at, atol=1e-4) and np.allclose(rotation, MIRROR @ axes_of(row) @ OPTICAL, atol=1e-5), (id, frame)
-    return sum(map(len, told.values()))
+            still = Tree()
+            still.edges = {"target": ("map", np.eye(3), MIRROR @ place(row, "target")), f"camera_{camera}_optical_frame": ("map", rotation, found)}
+            seen += check_geometry(of, still, row, f"/camera/{camera}", f"camera_{camera}_optical_frame")
+    for id in [id for id in films.values() if any(id in of_flights for of_flights in sensors.values())][:1]:
+        readings.append(check_sensors(id, told, places, tree))
+    return sum(map(len, shown.values())), seen
 
 
 def plain(message):
@@ -313,7 +324,9 @@ def definitions_are_those_of_ros(bag):
 bags = sorted(path.parent for path in export.glob("*/*/*/metadata.yaml"))
 assert bags, f"{export} has no bags"
 if len(bags) < len(flights):
-    print(f"{len(bags)} bags of rigs, {sum(map(check_rig, bags))} camera poses and boxes as in the tables")
+    poses, seen = np.sum([check_rig(bag) for bag in bags], axis=0)
+    print(f"{len(bags)} bags of rigs, {poses} camera poses and boxes as in the tables, {seen} with the target found in the depths, "
+          f"{sum(sum(it.values()) for it in readings)} readings of sensors")
     sys.exit()
 assert {bag.name for bag in bags} == set(flights)
 total = np.sum([check_bag(bag) for bag in bags], axis=0)
