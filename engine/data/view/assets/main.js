@@ -22,7 +22,7 @@ const counted = (number, noun) => `${number} ${noun}${number === 1 ? "" : "s"}`;
 async function start() {
   // The token has done its work: it must not stay in the address.
   if (location.search) history.replaceState(null, "", location.pathname + location.hash);
-  const about = await source.get("/api/about");
+  const [about, index] = await Promise.all([source.get("/api/about"), source.get("/api/index")]);
   state.about = about;
   source.setVersion(about.version);
   document.title = `${about.name} – cosfly view`;
@@ -30,7 +30,7 @@ async function start() {
   const left = about.shown < about.flights ? `, the first ${about.shown} in the list` : "";
   const rejected = about.rejected ? `, ${about.rejected} without a flight` : "";
   $("about").textContent = `${about.kind}: ${counted(about.flights, "flight")}${left}${rejected}` + (source.isExported ? ", an exported page" : "");
-  state.index = await source.get("/api/index");
+  state.index = index;
   list = new FlightList(state.index, flight => choose(flight));
   for (const column of state.index.columns) {
     $("columns").append(element("dt", column.name), element("dd", column.doc));
@@ -74,6 +74,7 @@ async function choose(number, frame) {
     if (asked !== number) return;
     state.flight = flight;
     state.beside = null;
+    pictures.isOpening = true;
     const longest = flight.losses.reduce((a, b) => b.end - b.from > a.end - a.from ? b : a, { from: 0, end: 0 });
     const worst = list.value("worst_frame", number) ?? longest.from;
     showFlight();
@@ -84,6 +85,8 @@ async function choose(number, frame) {
     if (asked !== number) return;
     if (!state.flight || state.flight.number !== number) showNone(number);
     tell(error.message);
+  } finally {
+    if (asked === number) pictures.isOpening = false;
   }
 }
 
@@ -103,9 +106,11 @@ function showParts(isShown) {
 const loaded = new Map();
 async function load(number) {
   if (!loaded.has(number)) {
-    const flight = await source.get(`/api/flight/${number}`);
+    // An exported page holds towns by their names, which the flight tells.
+    const told = source.get(`/api/flight/${number}`);
+    const places = source.isExported ? told.then(it => source.town(number, it.town)) : source.town(number);
+    const [flight, town, bodies] = await Promise.all([told, places, source.get(`/api/bodies/${number}`)]);
     flight.number = number;
-    const [town, bodies] = await Promise.all([source.town(number, flight.town), source.get(`/api/bodies/${number}`)]);
     flight.boxes = new Map();
     bodies.boxes.forEach(([frame, , edges]) => flight.boxes.set(frame, [...(flight.boxes.get(frame) || []), edges]));
     Object.assign(flight, { boxesOfTown: town, bodies });

@@ -9,6 +9,8 @@ class Pictures {
     this.box = box;
     this.images = new Map();
     this.panes = [];
+    // Set while a flight and the one beside it are being opened.
+    this.isOpening = false;
   }
 
   // A pane for each channel of the flight, and one for the colours of the flight beside. Exported pages have colours alone.
@@ -64,7 +66,10 @@ class Pictures {
     return source.pictured(pane.flight.number, Math.min(frame, pane.flight.x.length - 1), pane.channel);
   }
 
+  // Neighbours wait for the pictures of the frame: a browser loads few at a time. Each picture that comes draws again.
   fetchAhead(frame) {
+    const isMissing = pane => { const image = this.image(pane, this.place(pane, frame)); return image && !image.complete; };
+    if (this.isOpening || this.panes.some(isMissing)) return;
     for (const pane of this.panes) {
       for (let step = 1; step <= AHEAD; step += 1) {
         [frame + step, frame - step].filter(at => at >= 0 && at < pane.flight.x.length).forEach(at => this.image(pane, this.place(pane, at)));
