@@ -67,3 +67,29 @@ fn the_answers_that_models_learn_are_scored_as_right() {
 fn the_help_has_examples() {
     insta::assert_snapshot!("help_export", cosfly(&["export", "--help"]).run_ok().stdout);
 }
+
+#[test]
+fn bags_of_a_result_name_the_episodes_without_a_log() {
+    let street = Street::new();
+    cosfly(&["fly", "recipe.toml", "--out", "flown", "--policy", "follow", "--clips", "0"])
+        .within(street.path())
+        .run_ok();
+    let logs = street.path().join("flown/follow/logs");
+    let mut names: Vec<_> = std::fs::read_dir(&logs).expect("logs").map(|it| it.expect("a file").path()).collect();
+    names.retain(|path| path.extension().is_some_and(|it| it == "mcap"));
+    names.sort();
+    assert!(names.len() > 1);
+    std::fs::remove_file(&names[0]).expect("removed");
+    let printed = cosfly(&["fly", "bags", "flown/follow", "--out", "bags"]).within(street.path()).run();
+    let lost = names[0].file_stem().expect("a name").to_string_lossy();
+    let told = format!("1 episode without a log, so without a bag: `{lost}`");
+    assert!(printed.code == Some(0) && printed.stdout.contains(&told), "{}{}", printed.stdout, printed.stderr);
+    // Another byte of the next one is no other flight.
+    let mut bytes = std::fs::read(&names[1]).expect("a log");
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    std::fs::write(&names[1], bytes).expect("written");
+    let refused = cosfly(&["fly", "bags", "flown/follow", "--out", "more"]).within(street.path()).run();
+    assert!(refused.code == Some(4) && refused.stderr.contains("error[dataset-damaged]"), "{}", refused.stderr);
+    assert!(!street.path().join("more").exists());
+}
