@@ -6,17 +6,19 @@ flights, and with `--timed`, on an idle machine, times are held, too. Needs `pla
 of playwright, or one on the PATH."""
 
 import contextlib
+import itertools
 import re
 import shutil
 import subprocess
 import time
+from collections import defaultdict
 from pathlib import Path
 
 import pyarrow as pa
 import pyarrow.compute
 import pyarrow.parquet as pq
 from playwright.sync_api import sync_playwright
-from shared import chromium_of, command_line, end_with, faults_of_page, watch, with_column
+from shared import chromium_of, command_line, end_with, faults_of_page, rows, watch, with_column
 
 FIRST_VIEW_S = 2.0
 PAINTED_MS = 100.0
@@ -83,6 +85,21 @@ def all_painted(page):
     )
 
 
+def longest_losses():
+    """Of each flight the longest stretch of frames without a pixel of the target, by the tables alone: seconds, first frame, end."""
+    steps = {row["trajectory_id"]: row["dt_s"] for row in rows(arguments.dataset, "trajectories", ["trajectory_id", "dt_s"])}
+    seen = defaultdict(dict)
+    for row in rows(arguments.dataset, "frames", ["trajectory_id", "frame", "visible_pixels"]):
+        seen[row["trajectory_id"]][row["frame"]] = row["visible_pixels"] > 0
+    found = {}
+    for id, of_flight in seen.items():
+        frames = [frame for frame in sorted(of_flight) if not of_flight[frame]]
+        stretches = [list(group) for _, group in itertools.groupby(enumerate(frames), lambda it: it[1] - it[0])]
+        longest = max(stretches, key=len, default=[])
+        found[id] = (len(longest) * steps[id], longest[0][1] if longest else 0, longest[-1][1] + 1 if longest else 0)
+    return found
+
+
 def check_whole(browser):
     """Worst flight first, its reason and its frame; filters; keys; links."""
     with served(arguments.dataset) as (address, _), opened(browser, address, "whole") as page:
@@ -95,6 +112,11 @@ def check_whole(browser):
         losses = page.evaluate("state.index.columns.find(it => it.name == 'losses_s').numbers")
         chosen = page.evaluate("state.flight.number")
         expect(losses[chosen] == max(losses), f"flight {chosen} loses its target for {losses[chosen]} s, another one for {max(losses)} s")
+        truth = longest_losses()
+        lost_s, begin, end = truth[page.evaluate("state.flight.name")]
+        expect(lost_s == max(it[0] for it in truth.values()), f"by the tables another flight loses its target for longer than {lost_s} s")
+        expect(not lost_s or f"for {lost_s:.1f} s from frame {begin}" in reason, f"by the tables it is lost for {lost_s} s from frame {begin}, not `{reason}`")
+        expect(not lost_s or begin <= page.evaluate("state.frame") < end, "the page does not open within the worst loss")
         shoot(page, "whole")
         for query, is_lost in (("losses_s > 0.5", True), ("losses over 0.5 s", True), ("not losses_s > 0.5", False)):
             page.fill("#query", query)
@@ -194,8 +216,8 @@ def check_one(browser):
     folder = copy("一次飞行")
     for table in ("trajectories", "frames", "captions"):
         for path in folder.glob(f"data/{table}/*.parquet"):
-            rows = pq.read_table(path)
-            pq.write_table(rows.filter(pa.compute.equal(rows["trajectory_id"], "expert-p00000")), path)
+            table_of_all = pq.read_table(path)
+            pq.write_table(table_of_all.filter(pa.compute.equal(table_of_all["trajectory_id"], "expert-p00000")), path)
     with served(folder) as (address, _), opened(browser, address, "one", viewport={"width": 360, "height": 740}) as page:
         page.wait_for_selector("#pictures canvas[data-frame]")
         expect("1 flight" in page.locator("#matches").inner_text() or page.locator(".row").count() == 1, "a single flight is not the only one")
