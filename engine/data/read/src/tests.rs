@@ -194,3 +194,41 @@ fn a_folder_that_was_made_anew_is_refused_and_one_with_the_same_bytes_is_not() {
     std::fs::remove_file(table).unwrap();
     assert_eq!(bare.files("frames").unwrap_err().code, "dataset-changed");
 }
+
+/// A log again, with what `encoding` says of the messages of a topic: their encoding, or that they are left out.
+fn written_again(log: &std::path::Path, encoding: &dyn Fn(&str) -> Option<&'static str>) {
+    let bytes = std::fs::read(log).unwrap();
+    let mut again = std::io::Cursor::new(vec![]);
+    let mut writer = ::mcap::Writer::new(&mut again).unwrap();
+    for message in ::mcap::MessageStream::new(&bytes).unwrap() {
+        let message = message.unwrap();
+        let Some(encoding) = encoding(&message.channel.topic) else { continue };
+        let channel = ::mcap::Channel { message_encoding: encoding.to_owned(), ..(*message.channel).clone() };
+        writer.write(&::mcap::Message { channel: std::sync::Arc::new(channel), ..message }).unwrap();
+    }
+    writer.finish().unwrap();
+    drop(writer);
+    std::fs::write(log, again.into_inner()).unwrap();
+}
+
+#[test]
+fn foreign_encodings_and_missing_topics_of_a_log_are_named() {
+    const DEPTH: &str = "/camera/depth/image";
+    let told = |encoding: &dyn Fn(&str) -> Option<&'static str>| {
+        let (_folder, dataset) = published();
+        let flight = dataset.flight("expert-p00000").unwrap();
+        written_again(&dataset.folder().join(&flight.mcap_path), encoding);
+        let mut log = dataset.log(flight).unwrap();
+        [log.frame(1).err(), log.scene().err()].map(|it| it.map_or(String::new(), |it| it.to_string()))
+    };
+    assert_eq!(told(&|_| Some("protobuf")), ["", ""]);
+    let [frame, scene] = told(&|topic| Some(if topic == DEPTH { "json" } else { "protobuf" }));
+    assert!(frame.contains("messages on `/camera/depth/image` have the encoding `json`, not `protobuf`"), "{frame}");
+    assert_eq!(scene, "");
+    let [frame, scene] = told(&|topic| Some("protobuf").filter(|_| topic != DEPTH));
+    assert!(frame.contains("frame 1 has no message on `/camera/depth/image`"), "{frame}");
+    assert_eq!(scene, "");
+    let [frame, scene] = told(&|topic| Some("protobuf").filter(|_| topic != "/scene"));
+    assert!(scene.contains("it has no message on `/scene`"), "{scene}");
+    assert_eq!(frame, "");
+}
