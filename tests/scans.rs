@@ -91,22 +91,23 @@ fn meshed(keys: &str) -> Street {
 
 #[test]
 fn a_mesh_is_drawn_as_it_is_and_its_licence_stands_on_the_card() {
-    let street = meshed("source = \"scan.glb\", license = \"CC BY 4.0, Ana Kos\"");
+    let street = meshed("source = \"scan.glb\", license = \"CC BY 4.0, Ana Kos\", faces_and_plates = \"removed\"");
     let printed = cosfly(&["run", "recipe.toml"]).within(street.path()).run_ok();
-    assert!(
-        !printed.stderr.contains("licence of the scan") && !printed.stderr.contains("of the mesh lie"),
-        "{}",
-        printed.stderr
-    );
+    for words in ["licence of the scan", "number plates", "of the mesh lie"] {
+        assert!(!printed.stderr.contains(words), "{words}: {}", printed.stderr);
+    }
     let dataset = street.dataset();
     cosfly(&["verify", dataset.to_str().expect("UTF-8")]).within(street.path()).run_ok();
     let card = std::fs::read_to_string(dataset.join("README.md")).expect("a card");
-    assert!(card.contains("CC BY 4.0, Ana Kos") && card.contains("number plates"), "{card}");
+    assert!(card.contains("CC BY 4.0, Ana Kos") && card.contains("number plates: removed"), "{card}");
 
     // Elsewhere, the mesh is not that of the map; without a licence, somebody must ask.
     let set = "stages.frames.mesh={ source = \"scan.glb\", origin_m = [0, 0, -30] }";
-    let printed = cosfly(&["run", "recipe.toml", "--set", set]).within(street.path()).run_ok();
-    for words in ["of the mesh lie", "licence of the scan", "mesh.license"] {
+    let air = "stages.frames.weather={ fog_density = [40, 40], precipitation = [50, 50] }";
+    let printed = cosfly(&["run", "recipe.toml", "--set", set, "--set", air]).within(street.path()).run_ok();
+    let card = std::fs::read_to_string(dataset.join("README.md")).expect("a card");
+    assert!(card.contains("its ground stays dry") && card.contains("number plates: not stated"), "{card}");
+    for words in ["of the mesh lie", "licence of the scan", "mesh.license", "mesh.faces_and_plates"] {
         assert!(printed.stderr.contains(words), "{words}: {}", printed.stderr);
     }
     let printed = cosfly(&["map", "inspect", "scan.glb"]).within(street.path()).run_ok();
@@ -122,6 +123,7 @@ fn meshes_that_cannot_be_drawn_are_refused_before_anything_runs() {
         ("source = \"scan.glb\", unit_m = 0", 3, vec!["unit_m", "recipe.toml:"]),
         ("source = \"scan.glb\", up_axis = \"x\"", 3, vec!["up_axis", "recipe.toml:"]),
         ("source = \"scan.glb\", exposure_ev = 9", 3, vec!["exposure_ev", "recipe.toml:"]),
+        ("source = \"scan.glb\", faces_and_plates = \"some\"", 3, vec!["removed", "readable", "recipe.toml:"]),
     ] {
         let street = meshed(keys);
         let printed = cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run();

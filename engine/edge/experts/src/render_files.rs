@@ -3,9 +3,11 @@
 use cosfly_diagnose::{Diagnostic, Fault, Result, counted};
 use cosfly_domain::{Town, Trajectory};
 use cosfly_frames::DVec3;
+use cosfly_materials::dry_days;
 use cosfly_models::Model;
 use cosfly_models::mesh::{MeshConfig, NamedFile, TexturedMesh};
 use cosfly_render::{RenderConfig, Scene, SceneMesh, SceneModel, SceneScan, SceneSplats};
+use cosfly_scans::faces_and_plates::FacesAndPlates;
 use cosfly_splats::SplatCloud;
 use cosfly_stage::{Settle, Source, SourceCheck};
 use cosfly_town::MapError;
@@ -20,6 +22,8 @@ const MOST_SPLAT_BYTES: u64 = 4 << 30;
 const MOST_MESH_BYTES: u64 = 4 << 30;
 /// Splats farther from the geometry in the median seem to be of another place, metres.
 const MOST_OFF_M: f32 = 0.5;
+/// More of the pixels of bodies behind splats are a warning.
+const MOST_HIDDEN: f64 = 0.1;
 /// A mesh with less of its area on the map's boxes and ground seems to be of another place.
 const LEAST_KNOWN: f64 = 0.8;
 /// Distances from a mesh are told up to this much beyond the certified ones, metres.
@@ -163,23 +167,45 @@ fn read_model(path: &Path) -> Result<Model> {
     })
 }
 
-/// Words on the scans of pictures for the card of a dataset, and warnings where licences are not stated.
+/// Words on the scans of pictures for the card of a dataset, and warnings where a licence, or what became of faces, is not stated.
 pub fn scan_notes(config: &RenderConfig) -> (Vec<String>, Vec<String>) {
-    let mesh = config.mesh.as_ref().map(|mesh| ("mesh", "a textured mesh", &mesh.license));
-    let splats = config.splats.as_ref().map(|splats| ("splats", "splats", &splats.license));
+    let mesh = config.mesh.as_ref().map(|it| ("mesh", "a textured mesh", &it.license, it.faces_and_plates));
+    let splats = config.splats.as_ref().map(|it| ("splats", "splats", &it.license, it.faces_and_plates));
     let (mut notes, mut warnings) = (vec![], vec![]);
-    for (key, what, license) in mesh.into_iter().chain(splats) {
+    let is_in_air = config
+        .weather
+        .all()
+        .into_iter()
+        .any(|(name, range, _)| range.is_some() && dry_days::IN_THE_AIR.contains(&name));
+    let air = if is_in_air { "; rain and haze are in the air alone: its ground stays dry" } else { "" };
+    for (key, what, license, faces) in mesh.into_iter().chain(splats) {
         let stated = license.as_deref().map(str::trim).filter(|license| !license.is_empty());
         if stated.is_none() {
             warnings.push(format!("the licence of the scan is not stated: give it with `{key}.license`"));
         }
-        let license = stated.map_or_else(|| "not stated".to_owned(), str::to_owned);
+        if faces.is_none() {
+            warnings.push(format!(
+                "nobody says whether faces and number plates can be told in the scan: give `{key}.faces_and_plates`, `none`, `removed` \
+                 or `readable`"
+            ));
+        }
+        let license = stated.unwrap_or("not stated");
+        let faces = faces.map_or("not stated", FacesAndPlates::words);
         notes.push(format!(
-            "not invented: pictures show {what} of a real or modelled place, licence: {license}; whoever publishes them answers for faces \
-             and number plates in it"
+            "not invented: pictures show {what} of a real or modelled place, licence: {license}; faces and number plates: {faces}; whoever \
+             publishes them answers for these{air}"
         ));
     }
     (notes, warnings)
+}
+
+/// What a film shows of its splats.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SplatsSeen {
+    /// Median distance from the geometry, metres; none without pixels of both.
+    pub off_m: Option<f32>,
+    /// Pixels of bodies that splats hide, and all pixels of bodies.
+    pub hidden: [u64; 2],
 }
 
 /// Notes on the scan of a film by their names, and warnings where it does not belong to the geometry of the map and of the flight.
@@ -187,13 +213,13 @@ pub fn compared(
     config: &RenderConfig,
     scene: &Scene,
     flight: &Trajectory,
-    splats_off_m: Option<f32>,
+    splats_seen: &SplatsSeen,
 ) -> (BTreeMap<String, String>, Vec<String>) {
     let mesh = scene.mesh().map(|mesh| {
         let remarks = mesh.remarks().iter().map(|remark| (remark.clone(), Some(format!("the mesh: {remark}"))));
         ("mesh", [vec![matched(mesh), kept_away(mesh, flight)], remarks.collect()].concat())
     });
-    let splats = config.splats.as_ref().map(|_| ("splats", vec![lying(splats_off_m)]));
+    let splats = config.splats.as_ref().map(|_| ("splats", vec![lying(splats_seen.off_m), hiding(splats_seen.hidden)]));
     let (mut notes, mut warnings) = (BTreeMap::new(), vec![]);
     for (name, found) in mesh.into_iter().chain(splats) {
         let words: Vec<String> = found.iter().map(|(note, _)| note.clone()).collect();
@@ -233,6 +259,17 @@ fn lying(off_m: Option<f32>) -> (String, Option<String>) {
     (note, is_elsewhere.then_some(warning))
 }
 
+/// The note about bodies that splats hide, and the warning where they are many.
+fn hiding([hidden, all]: [u64; 2]) -> (String, Option<String>) {
+    let share = hidden as f64 / all.max(1) as f64;
+    let note = format!("splats hide {:.1} % of the pixels of bodies", 100.0 * share);
+    let warning = format!(
+        "{note}: the map lacks what stands there; pictures and labels show them hidden, and flights do not know it. Give a map that has \
+         these things, or crop them from the splats"
+    );
+    (note, (share > MOST_HIDDEN).then_some(warning))
+}
+
 /// The note about a mesh and the geometry, and the warning where they do not belong together.
 fn matched(mesh: &SceneMesh) -> (String, Option<String>) {
     let share = mesh.known_share();
@@ -254,5 +291,8 @@ mod tests {
         assert_eq!(lying(Some(0.04)), ("half of the pixels within 0.04 m of the geometry".to_owned(), None));
         let warning = |off_m| lying(off_m).1.expect("a warning");
         assert!(warning(Some(2.0)).contains("2.0 m") && warning(None).contains("splats.up_axis"));
+        assert_eq!(hiding([0, 0]), ("splats hide 0.0 % of the pixels of bodies".to_owned(), None));
+        assert_eq!(hiding([9, 100]).1, None);
+        assert!(hiding([11, 100]).1.is_some_and(|it| it.contains("11.0 %")));
     }
 }

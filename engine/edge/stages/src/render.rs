@@ -11,6 +11,7 @@ use cosfly_domain::{
     BodyInSpace, Camera, PlanOutcome, TARGET_INSTANCE, TargetView, Trajectory, largest_object_instance,
 };
 use cosfly_experts::memo::Memo;
+use cosfly_experts::render_files::SplatsSeen;
 use cosfly_experts::world::{check_same_town, link_town, world};
 use cosfly_experts::{artifacts, pictures, render_files};
 use cosfly_figures::{Bystander, outfit_of};
@@ -69,7 +70,7 @@ impl StageKind for Render {
         let bare = RenderConfig { models: vec![], season: None, mesh: None, splats: None, ..config.clone() };
         let nearby = nearby::part(&bare, canonical(&bare, parameters::canonical(&bare)), items.clone());
         let properties = StageProperties {
-            version: 35,
+            version: 36,
             parameters: canonical(&config, parameters::joined_canonical(&config, &encoding, pictures::ENCODING)),
             sources,
             inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],
@@ -148,7 +149,7 @@ impl Stage for RenderStage {
         let mut seen = self.draw(outputs, context, &place, (&trajectory, &filmed), (&config, &shooting))?;
         let mut notes = notes_of(&crowd, &seen.sightings);
         let (on_card, mut warnings) = render_files::scan_notes(&self.config);
-        let (found, more) = render_files::compared(&self.config, &scene, &trajectory, seen.median_off_m());
+        let (found, more) = render_files::compared(&self.config, &scene, &trajectory, &seen.of_splats());
         notes.extend(found);
         warnings.extend(more);
         let mut town = TownInfo::of(&world.town, town_digest);
@@ -243,13 +244,16 @@ struct SeenPeople {
     bodies_3d: Vec<BodyInSpace>,
     /// Median distances between splats and geometry by frame, metres.
     splats_off_m: Vec<f32>,
+    /// Pixels of bodies that splats hide, and all pixels of bodies.
+    hidden: [u64; 2],
 }
 
 impl SeenPeople {
-    /// The median over all frames; none without pixels of both splats and geometry.
-    fn median_off_m(&mut self) -> Option<f32> {
+    /// What the frames show of splats; of distances the median.
+    fn of_splats(&mut self) -> SplatsSeen {
         self.splats_off_m.sort_unstable_by(f32::total_cmp);
-        self.splats_off_m.get(self.splats_off_m.len() / 2).copied()
+        let off_m = self.splats_off_m.get(self.splats_off_m.len() / 2).copied();
+        SplatsSeen { off_m, hidden: self.hidden }
     }
 }
 
@@ -342,6 +346,8 @@ impl RenderStage {
                 seen.views.push(TargetView { visible_by_rays: filmed.visibility[number], ..view });
                 seen.sightings.extend(sightings);
                 seen.splats_off_m.extend(rig.renderer.splats_off_m());
+                let hidden = rig.renderer.hidden_by_splats();
+                seen.hidden.iter_mut().zip(hidden).for_each(|(sum, pixels)| *sum += pixels as u64);
             }
             pack.finish().map(drop)
         })?;

@@ -4,6 +4,9 @@ use crate::presets::{PRESETS, preset};
 use crate::weather::WeatherRanges;
 use cosfly_domain::Season;
 
+/// Numbers of a weather that change the air before a scan.
+pub const IN_THE_AIR: [&str; 3] = ["fog_density", "fog_distance", "precipitation"];
+
 /// The key of a stage that pictures of the scan under `scan` cannot follow, what is wrong with it, and what is allowed.
 pub fn refusal(
     scan: &str,
@@ -18,19 +21,24 @@ pub fn refusal(
     if let Some((index, name)) = weathers.iter().enumerate().find(|(_, name)| !is_dry_day(name)) {
         let days: Vec<&str> = PRESETS.into_iter().filter(|name| is_dry_day(name)).collect();
         let message = format!("`{name}` is wet, dusty or dark, and `{scan}` is as dry and bright as it was scanned");
-        let hint = format!("with `{scan}`, the weathers are {}: they light people and vehicles", days.join(", "));
+        let hint = format!(
+            "with `{scan}`, the weathers are {}: they light people and vehicles; rain and haze in the air are \
+             `weather.precipitation` and `weather.fog_density`",
+            days.join(", ")
+        );
         return Some((format!("weathers[{index}]"), message, hint));
     }
     let changed = ranges.all().into_iter().find_map(|(name, range, _)| {
         let [low, _] = range?;
         let is_of_light = matches!(name, "cloudiness" | "wind_intensity" | "sun_azimuth_angle");
-        (!(is_of_light || name == "sun_altitude_angle" && low > 0.0)).then_some(name)
+        (!(is_of_light || IN_THE_AIR.contains(&name) || name == "sun_altitude_angle" && low > 0.0)).then_some(name)
     });
     changed.map(|name| {
-        let message = format!("`{name}` changes air or ground, and `{scan}` stays as it was scanned");
+        let message = format!("`{name}` changes the ground or the day, and `{scan}` stays as it was scanned");
         let hint = format!(
-            "with `{scan}`, give `cloudiness`, `sun_azimuth_angle`, or `sun_altitude_angle` above 0: they light people and \
-             vehicles"
+            "with `{scan}`, give `cloudiness`, `sun_azimuth_angle`, or `sun_altitude_angle` above 0, which light people and \
+             vehicles, or what is in the air: {}",
+            IN_THE_AIR.map(|name| format!("`{name}`")).join(", ")
         );
         (format!("weather.{name}"), message, hint)
     })
@@ -60,7 +68,13 @@ mod tests {
         assert_eq!(path(&["WetNoon"], &plain, None), "weathers[0]");
         assert_eq!(path(&["ClearNoon"], &plain, Some(Season::Winter)), "season");
         let fog = WeatherRanges { fog_density: Some([0.0, 30.0]), ..plain.clone() };
-        assert_eq!(path(&["ClearNoon"], &fog, None), "weather.fog_density");
+        assert_eq!(refusal("mesh", &names(&["ClearNoon"]), &fog, None), None, "haze is in the air");
+        let rain = WeatherRanges { precipitation: Some([60.0, 60.0]), ..plain.clone() };
+        assert_eq!(refusal("splats", &names(&["CloudyNoon"]), &rain, None), None, "rain is in the air");
+        let wet = WeatherRanges { wetness: Some([0.0, 30.0]), ..rain };
+        assert_eq!(path(&["ClearNoon"], &wet, None), "weather.wetness");
+        let puddles = WeatherRanges { precipitation_deposits: Some([1.0, 1.0]), ..plain.clone() };
+        assert_eq!(path(&["ClearNoon"], &puddles, None), "weather.precipitation_deposits");
         let night = WeatherRanges { sun_altitude_angle: Some([-5.0, 30.0]), ..plain.clone() };
         assert_eq!(path(&["ClearNoon"], &night, None), "weather.sun_altitude_angle");
         let sun = WeatherRanges { sun_azimuth_angle: Some([90.0, 90.0]), ..plain };

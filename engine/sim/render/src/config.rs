@@ -82,11 +82,11 @@ pub struct RenderConfig {
     /// Models from glTF files, drawn instead of the boxes of the town's things; labels and ids stay those of the things.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub models: Vec<ModelConfig>,
-    /// A textured mesh of a scan, drawn in the place of the town's boxes, with the light that is in its colours. Dry days only, in the
-    /// season of the scan.
+    /// A textured mesh of a scan, drawn in the place of the town's boxes, with the light that is in its colours. Dry ground by day, in
+    /// the season of the scan; rain and haze in the air.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh: Option<MeshConfig>,
-    /// Gaussian splats of a scan: colours over the geometry that the map's file gives. Dry days only, in the season of the scan.
+    /// Gaussian splats of a scan: colours over the geometry that the map's file gives. Weathers as with `mesh`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub splats: Option<SplatsConfig>,
     /// Writes a 3-D box of each body that a frame shows, and COCO's seventeen key points of people: table `bodies_3d`.

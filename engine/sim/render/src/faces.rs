@@ -27,6 +27,8 @@ pub(crate) enum FaceSource {
     Prop { triangle: u32 },
     /// Triangle of the scene's mesh.
     Mesh { triangle: u32 },
+    /// What a scan's splats show before a body, at one pixel.
+    Splats,
     /// A part of a figure: its look, the first face drawn of it, the number of the triangle in the figure, and whether it is of a
     /// person.
     Figure { look: u32, first_face: u32, triangle: u32, is_cloth: bool },

@@ -24,6 +24,7 @@ mod people;
 mod props;
 pub mod renderer;
 mod rig;
+mod scan_air;
 pub mod scene;
 mod scene_mesh;
 mod scene_splats;

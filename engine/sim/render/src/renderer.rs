@@ -244,6 +244,12 @@ impl Renderer {
         self.view = target_view::NOT_IN_VIEW;
         if parts != FrameParts::Visibility {
             self.fill_channels(scene, parts == FrameParts::All);
+            // Splats hide bodies: labels follow before they are counted.
+            if parts == FrameParts::All && (scene.mesh.is_some() || scene.splats.is_some()) {
+                self.measure_shadows(scene, setup);
+                self.draw_mesh(scene, setup);
+                self.draw_splats(scene, setup);
+            }
             if !self.images.on_request.is_empty() {
                 on_request::draw(&mut self.images, &self.nearest.face, &self.faces, &eye, &self.screen);
             }
@@ -255,11 +261,6 @@ impl Renderer {
             target_view::draw_alone(&mut self.images, &self.covered);
             target_view::measure_bodies(self.level, &self.images, setup.others, &mut self.others);
             watch.lap(4);
-        }
-        if parts == FrameParts::All && (scene.mesh.is_some() || scene.splats.is_some()) {
-            self.measure_shadows(scene, setup);
-            self.draw_mesh(scene, setup);
-            self.draw_splats(scene, setup);
         }
         if parts == FrameParts::All && self.look == PictureLook::Full {
             self.smooth_edges(scene);

@@ -1,5 +1,6 @@
 //! Splats of a scene: the colours of a scan over the geometry of a town, and bodies among them.
 
+use crate::scan_air::ScanAir;
 use cosfly_domain::Camera;
 use cosfly_frames::{DVec3, Pose, real};
 use cosfly_materials::scan_light::CodeCurve;
@@ -40,6 +41,8 @@ pub(crate) struct Composer {
     pub lit: Vec<f32>,
     /// Distances between splats and geometry along the optical axis in the last picture, metres, of some pixels.
     off_m: Vec<f32>,
+    /// Pixels of bodies that lose more than half of their light to splats, and the depth at which they do, metres.
+    pub hiding: Vec<(usize, f32)>,
 }
 
 /// Pixels from one to the next at which splats are compared with the geometry.
@@ -51,7 +54,7 @@ impl Composer {
         &mut self,
         splats: &SceneSplats,
         (camera, pose): (&Camera, &Pose),
-        is_parallel: bool,
+        (is_parallel, air): (bool, Option<ScanAir>),
         (rgb, depth_m): (&mut [u8], &[f32]),
     ) {
         let view = SplatView::new(camera, pose, &splats.placement, splats.is_antialiased);
@@ -61,16 +64,24 @@ impl Composer {
         let both = picture.depth_m.iter().zip(depth_m).zip(&self.limit_m).step_by(BETWEEN_LOOKS);
         let both = both.filter(|((own, there), limit)| own.is_finite() && there.is_finite() && limit.is_infinite());
         self.off_m.extend(both.map(|((own, there), _)| (own - there).abs()));
+        self.hiding.clear();
+        let hidden = picture.depth_m.iter().zip(&self.limit_m).enumerate();
+        let hidden = hidden.filter(|(_, (own, limit))| own.is_finite() && limit.is_finite());
+        self.hiding.extend(hidden.map(|(pixel, (own, limit))| (pixel, own.min(*limit))));
         let curve = self.curve.get_or_insert_with(|| Box::new(CodeCurve::default()));
         let seen = picture.colour.iter().zip(&picture.transmittance);
         for (pixel, (rgb, (colour, light))) in rgb.as_chunks_mut::<3>().0.iter_mut().zip(seen).enumerate() {
             let factor = splats.exposure * self.lit.get(pixel).copied().unwrap_or(1.0);
             let covered = 1.0 - light;
-            for (byte, own) in rgb.iter_mut().zip(colour) {
-                let own = if factor == 1.0 || covered <= 0.0 {
+            let is_plain = factor == 1.0 && air.is_none() || covered <= 0.0;
+            let depth_m = || if picture.depth_m[pixel].is_finite() { picture.depth_m[pixel] } else { depth_m[pixel] };
+            let kept = air.filter(|_| !is_plain).map_or(1.0, |air| air.kept(pixel, picture.width, depth_m()));
+            for (k, (byte, own)) in rgb.iter_mut().zip(colour).enumerate() {
+                let own = if is_plain {
                     *own
                 } else {
-                    covered * curve.encoded(factor * curve.decoded(own / covered))
+                    let light = factor * curve.decoded(own / covered);
+                    covered * curve.encoded(air.map_or(light, |air| air.seen(light, kept, k)))
                 };
                 *byte = (255.0 * own + light * f32::from(*byte) + 0.5) as u8;
             }

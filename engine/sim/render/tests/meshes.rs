@@ -135,3 +135,24 @@ fn the_bytes_are_those_of_any_processor_and_any_number_of_threads() {
         assert_eq!(plain, draw_by(&mut renderer, &scene, pose, Some(body()), &weather), "{level:?}");
     }
 }
+
+#[test]
+fn haze_lies_before_far_walls_and_changes_nothing_but_colours() {
+    let pose = look_at(DVec3::new(60.0, 120.0, 25.0), DVec3::new(-5.0, -4.0, 3.0));
+    let drawn = |weather: Weather| draw(&example(), pose, None, &weather);
+    let clear = drawn(noon(200.0));
+    let haze = drawn(Weather { fog_density: 80.0, ..noon(200.0) });
+    assert!(clear.depth_m == haze.depth_m && clear.semantic == haze.semantic && clear.instance == haze.instance);
+    // All walls come nearer to one light, and their contrast is less.
+    let walls: Vec<usize> =
+        off_edges(&clear).filter(|at| clear.semantic[*at] == SemanticLabel::Building.id()).collect();
+    assert!(walls.len() > 20, "{}", walls.len());
+    let spread = |images: &FrameImages| {
+        let codes = walls.iter().map(|at| f64::from(images.rgb[3 * at]));
+        let mean = codes.clone().sum::<f64>() / walls.len() as f64;
+        (codes.map(|code| (code - mean).abs()).sum::<f64>() / walls.len() as f64, mean)
+    };
+    let ((clear_spread, clear_mean), (haze_spread, haze_mean)) = (spread(&clear), spread(&haze));
+    assert!(haze_spread < 0.85 * clear_spread, "{haze_spread} {clear_spread}");
+    assert!(haze_mean > clear_mean, "{haze_mean} {clear_mean}");
+}

@@ -2,7 +2,7 @@
 
 mod small_town;
 
-use cosfly_domain::{Camera, FrameImages, TARGET_INSTANCE};
+use cosfly_domain::{Camera, ChannelSet, FrameImages, SemanticLabel, TARGET_INSTANCE, Weather};
 use cosfly_figures::{BodyShape, Walker};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_render::{FrameSetup, Renderer, Scene, SceneScan, SceneSplats};
@@ -37,6 +37,15 @@ fn look_at(from: DVec3) -> Pose {
 }
 
 fn draw(scene: &Scene, pose: Pose, has_target: bool) -> FrameImages {
+    drawn(scene, pose, has_target, &noon()).0
+}
+
+fn noon() -> Weather {
+    Weather { sun_azimuth_angle: 200.0, ..cosfly_materials::presets::clear_noon() }
+}
+
+/// A frame, and the share of the target that its pixels show.
+fn drawn(scene: &Scene, pose: Pose, has_target: bool, weather: &Weather) -> (FrameImages, f64) {
     let target = Walker {
         state: TargetState { feet_in_world: FEET, heading_rad: 0.1, speed_mps: 1.4 },
         height_m: 1.75,
@@ -47,10 +56,10 @@ fn draw(scene: &Scene, pose: Pose, has_target: bool) -> FrameImages {
     };
     let mut renderer = Renderer::new(CAMERA);
     renderer.set_optics(cosfly_domain::Optics::IDEAL);
-    let mut weather = cosfly_materials::presets::preset("ClearNoon").expect("a preset");
-    weather.sun_azimuth_angle = 200.0;
+    renderer.set_channels(&ChannelSet::of(|channel| !channel.is_on_request() || channel.name == "normals"));
     let target = has_target.then_some(target);
-    renderer.render(scene, &FrameSetup { pose, weather: &weather, target, others: &[] }).images.clone()
+    let frame = renderer.render(scene, &FrameSetup { pose, weather, target, others: &[] });
+    (frame.images.clone(), frame.target_view.visible_by_pixels)
 }
 
 /// A level or upright sheet of white splats around a place of the world.
@@ -74,7 +83,7 @@ fn of_target(images: &FrameImages) -> Vec<usize> {
 }
 
 #[test]
-fn bodies_stand_among_splats_and_labels_are_those_of_the_geometry() {
+fn bodies_stand_among_splats_and_labels_say_who_is_seen() {
     let pose = look_at(DVec3::new(-6.0, 0.0, 1.5));
     let across = [DVec3::Y * 0.1, DVec3::Z * 0.1];
     let behind = with_splats(&sheet(FEET + DVec3::new(1.5, 0.0, 1.0), across), &config());
@@ -82,9 +91,18 @@ fn bodies_stand_among_splats_and_labels_are_those_of_the_geometry() {
     let plain = draw(&scene(), pose, true);
     let pixels = of_target(&plain);
     assert!(pixels.len() > 200, "{}", pixels.len());
-    let (behind, before) = (draw(&behind, pose, true), draw(&before, pose, true));
-    for images in [&behind, &before] {
-        assert!(images.depth_m == plain.depth_m && images.instance == plain.instance, "geometry");
+    let ((behind, seen_before_it), (before, seen_behind_it)) =
+        (drawn(&behind, pose, true, &noon()), drawn(&before, pose, true, &noon()));
+    assert!(behind.depth_m == plain.depth_m && behind.instance == plain.instance, "geometry");
+    assert!(behind.semantic == plain.semantic && behind.on_request == plain.on_request, "geometry");
+    assert!(seen_before_it > 0.99 && seen_behind_it < 0.01, "{seen_before_it} {seen_behind_it}");
+    for at in 0..plain.instance.len() {
+        let is_hidden = before.instance[at] != plain.instance[at];
+        assert!(!is_hidden || plain.instance[at] == TARGET_INSTANCE && before.instance[at] == 0, "pixel {at}");
+        // The sheet stands 1.5 m before the feet, and its labels lie on it.
+        assert!(!is_hidden || before.semantic[at] == SemanticLabel::Static.id(), "pixel {at}");
+        assert!(!is_hidden || (plain.depth_m[at] - before.depth_m[at] - 1.5).abs() < 0.5, "pixel {at}");
+        assert!(is_hidden || before.depth_m[at] == plain.depth_m[at], "pixel {at}");
     }
     assert!((brightness(&behind, &pixels) - brightness(&plain, &pixels)).abs() < 12.0);
     assert!(brightness(&before, &pixels) > 235.0);
@@ -107,4 +125,41 @@ fn shadows_of_bodies_fall_on_splats_and_exposure_is_a_key() {
     let dark = with_splats(&ground, &SplatsConfig { exposure_ev: -2.0, ..config() });
     let lit: Vec<usize> = (0..with.instance.len()).filter(|at| brightness(&without, &[*at]) > 225.0).collect();
     assert!(brightness(&draw(&dark, pose, false), &lit) < 160.0);
+}
+
+#[test]
+fn thin_splats_before_a_body_leave_it_its_labels() {
+    let pose = look_at(DVec3::new(-6.0, 0.0, 1.5));
+    let thin: Vec<Splat> = sheet(FEET + DVec3::new(-1.5, 0.0, 1.0), [DVec3::Y * 0.1, DVec3::Z * 0.1])
+        .into_iter()
+        .map(|splat| Splat { opacity: 0.08, ..splat })
+        .collect();
+    let (plain, thin) = (draw(&scene(), pose, true), draw(&with_splats(&thin, &config()), pose, true));
+    assert!(plain.instance == thin.instance && plain.depth_m == thin.depth_m && plain.semantic == thin.semantic);
+    assert!(plain.rgb != thin.rgb);
+}
+
+#[test]
+fn haze_lies_before_far_splats_and_rain_falls_before_all() {
+    let pose = look_at(DVec3::new(-40.0, 0.0, 12.0));
+    let wall = sheet(FEET + DVec3::new(0.0, 0.0, 1.0), [DVec3::Y * 0.1, DVec3::Z * 0.1]);
+    let black: Vec<Splat> = wall
+        .into_iter()
+        .map(|splat| Splat::plain(splat.middle, splat.spread, splat.turn, splat.opacity, [0.0; 3]))
+        .collect();
+    let scene = with_splats(&black, &config());
+    let clear = draw(&scene, pose, false);
+    let dark: Vec<usize> = (0..clear.instance.len()).filter(|at| brightness(&clear, &[*at]) < 12.0).collect();
+    assert!(dark.len() > 100, "{}", dark.len());
+    let in_air = |weather: Weather| drawn(&scene, pose, false, &weather).0;
+    let haze = in_air(Weather { fog_density: 60.0, ..noon() });
+    assert!(haze.depth_m == clear.depth_m && haze.semantic == clear.semantic && haze.instance == clear.instance);
+    let denser = in_air(Weather { fog_density: 100.0, ..noon() });
+    let [none, some, more] = [&clear, &haze, &denser].map(|images| brightness(images, &dark));
+    assert!(none < 12.0 && some > none + 25.0 && more > some + 10.0, "{none} {some} {more}");
+    // As dry days have it, haze is in the scan's own colours.
+    assert!(in_air(Weather { fog_density: 3.0, ..noon() }).rgb.iter().zip(&clear.rgb).all(|(a, b)| a.abs_diff(*b) < 9));
+    let rain = in_air(Weather { precipitation: 80.0, ..noon() });
+    let streaks = dark.iter().filter(|at| brightness(&rain, &[**at]) > brightness(&clear, &[**at]) + 20.0).count();
+    assert!(streaks > 5 && rain.depth_m == clear.depth_m, "{streaks}");
 }

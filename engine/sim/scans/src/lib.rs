@@ -4,6 +4,7 @@ pub mod bytes;
 pub mod cloud;
 pub mod coloured;
 pub mod coloured_point;
+pub mod faces_and_plates;
 pub mod gltf;
 pub mod grid;
 pub mod ground_filter;

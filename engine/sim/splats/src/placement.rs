@@ -1,6 +1,7 @@
 //! Parameters of splats in a recipe, and their place in the world: up, scale, turn and origin, or two measured points.
 
 use cosfly_frames::{DMat3, DVec2, DVec3, real};
+use cosfly_scans::faces_and_plates::FacesAndPlates;
 use cosfly_scans::up_axis::UpAxis;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -47,6 +48,9 @@ pub struct SplatsConfig {
     /// Licence of the scan and its owner, such as `CC BY 4.0, Ana Kos, https://example.org/street`: it stands on the dataset's card.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub license: Option<String>,
+    /// Whether faces and number plates can be told in the scan: `none`, `removed` or `readable`; it stands on the dataset's card.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub faces_and_plates: Option<FacesAndPlates>,
 }
 
 /// Parameters that cannot be used.
@@ -85,6 +89,7 @@ impl SplatsConfig {
             exposure_ev: 0.0,
             antialiased: false,
             license: None,
+            faces_and_plates: None,
         }
     }
 

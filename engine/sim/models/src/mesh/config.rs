@@ -2,6 +2,7 @@
 
 use super::materials::{name_of, plain};
 use cosfly_frames::{DVec3, real};
+use cosfly_scans::faces_and_plates::FacesAndPlates;
 use cosfly_scans::up_axis::UpAxis;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -36,6 +37,9 @@ pub struct MeshConfig {
     /// Licence of the scan and its owner, such as `CC BY 4.0, Ana Kos, https://example.org/street`: it stands on the dataset's card.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub license: Option<String>,
+    /// Whether faces and number plates can be told in the scan: `none`, `removed` or `readable`; it stands on the dataset's card.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub faces_and_plates: Option<FacesAndPlates>,
 }
 
 /// Parameters that cannot be used.
@@ -77,6 +81,7 @@ impl MeshConfig {
             origin_m: None,
             exposure_ev: 0.0,
             license: None,
+            faces_and_plates: None,
         }
     }
 

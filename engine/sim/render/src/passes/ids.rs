@@ -184,7 +184,7 @@ fn surface_of(number: u32, face: &DrawnFace) -> u32 {
         FaceSource::Mesh { .. } => 0x9000_0000 | way(face.normal) << 24 | (face.instance & 0xff_ffff),
         // Round crowns have no edges between the faces of their boxes.
         FaceSource::Crown { .. } => 0x8400_0000 | (face.instance & 0xff_ffff),
-        FaceSource::Box { .. } => number & 0x7fff_ffff,
+        FaceSource::Box { .. } | FaceSource::Splats => number & 0x7fff_ffff,
     }
 }
 

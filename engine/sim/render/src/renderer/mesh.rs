@@ -107,8 +107,9 @@ impl Renderer {
     pub(super) fn draw_mesh(&mut self, scene: &Scene, setup: &FrameSetup<'_>) {
         let Some(own) = &scene.mesh else { return };
         let eye = Eye::new(&setup.pose);
-        let Self { runs, faces, images, composer, screen, parallel, .. } = self;
+        let Self { runs, faces, images, composer, screen, parallel, shader, .. } = self;
         let (faces, lit, screen) = (&*faces, &composer.lit, *screen);
+        let (air, depth_m) = (shader.scan_air(), &images.depth_m);
         let curve = CodeCurve::default();
         let fill = |row: usize, runs: &[Run], rgb: &mut [u8]| {
             for run in runs {
@@ -120,8 +121,11 @@ impl Renderer {
                 let first = run.start as usize % screen.width;
                 for column in first..first + run.length as usize {
                     let look = surface.look_at(&own.mesh, column as f64 + 0.5, row as f64 + 0.5);
-                    let factor = own.exposure * lit.get(row * screen.width + column).copied().unwrap_or(1.0);
-                    let bytes = [0, 1, 2].map(|k| (255.0 * curve.encoded(factor * look[k]) + 0.5) as u8);
+                    let pixel = row * screen.width + column;
+                    let factor = own.exposure * lit.get(pixel).copied().unwrap_or(1.0);
+                    let kept = air.map_or(1.0, |air| air.kept(pixel, screen.width, depth_m[pixel]));
+                    let light = |k: usize| air.map_or(factor * look[k], |air| air.seen(factor * look[k], kept, k));
+                    let bytes = [0, 1, 2].map(|k| (255.0 * curve.encoded(light(k)) + 0.5) as u8);
                     rgb[3 * column..3 * column + 3].copy_from_slice(&bytes);
                 }
             }

@@ -1,14 +1,18 @@
 //! Splats of a scene in a frame: bodies stand among them, and their shadows fall on them.
 
 use super::Renderer;
-use crate::faces::FaceSource;
+use crate::faces::{DrawnFace, FaceSource};
 use crate::look::PictureLook;
 use crate::people::Person;
 use crate::scene::Scene;
 use crate::scene_splats::BEFORE_BODIES_M;
 use crate::setup::FrameSetup;
+use cosfly_domain::SemanticLabel;
 use cosfly_figures::Walker;
+use cosfly_frames::Pose;
 use cosfly_materials::scan_light::lit_shares;
+use cosfly_raster::eye::Eye;
+use cosfly_raster::visibility::PlaneOnScreen;
 
 impl Renderer {
     /// Median distance along the optical axis between the scene's splats and its geometry in the last frame, metres; none without
@@ -17,10 +21,17 @@ impl Renderer {
         self.composer.median_off_m()
     }
 
-    /// Puts the scene's splats over the shaded faces of all that is no body; depth and ids stay those of the geometry.
+    /// Pixels of bodies that splats hide in the last frame, and all pixels of bodies.
+    pub fn hidden_by_splats(&self) -> [usize; 2] {
+        let bodies = self.composer.limit_m.iter().filter(|limit_m| limit_m.is_finite()).count();
+        [self.composer.hiding.len(), bodies]
+    }
+
+    /// Puts the scene's splats over the shaded faces of all that is no body. Depth and ids stay those of the geometry, but where splats
+    /// hide a body.
     pub(super) fn draw_splats(&mut self, scene: &Scene, setup: &FrameSetup<'_>) {
         let Some(splats) = &scene.splats else { return };
-        let Self { composer, images, nearest, faces, people, runs, camera, parallel, .. } = self;
+        let Self { composer, images, nearest, faces, people, runs, camera, parallel, shader, .. } = self;
         let is_of_body = |face: u32| match faces.get(face as usize).map(|face| face.source) {
             Some(FaceSource::Figure { look, .. }) => {
                 is_body(&people.members[people.looks[look as usize].person as usize])
@@ -42,9 +53,24 @@ impl Renderer {
                 .filter(|(_, limit)| limit.is_finite())
                 .for_each(|(lit, _)| *lit = 1.0);
         }
-        composer.compose(splats, (camera, &setup.pose), *parallel, (&mut images.rgb, &images.depth_m));
+        let air = shader.scan_air();
+        composer.compose(splats, (camera, &setup.pose), (*parallel, air), (&mut images.rgb, &images.depth_m));
         // Edges within the geometry do not show.
         runs.join_surfaces(is_of_body);
+        self.label_covered(&setup.pose);
+    }
+
+    /// Depth and ids of the pixels at which splats take more than half of a body's light: a thing without a kind, where the splats are.
+    fn label_covered(&mut self, pose: &Pose) {
+        let Self { composer, images, nearest, faces, .. } = self;
+        let normal = (-Eye::new(pose).world_from_body.x_axis).as_vec3().to_array();
+        for &(pixel, depth_m) in &composer.hiding {
+            let plane = PlaneOnScreen { constant: 1.0 / f64::from(depth_m), across: 0.0, down: 0.0 };
+            let label = SemanticLabel::Static.id();
+            (images.depth_m[pixel], images.semantic[pixel], images.instance[pixel]) = (depth_m, label, 0);
+            (nearest.face[pixel], nearest.inverse_depth[pixel]) = (faces.len() as u32, 1.0 / depth_m);
+            faces.push(DrawnFace { plane, normal, source: FaceSource::Splats, label, instance: 0 });
+        }
     }
 
     /// Light that pixels of a scan lose to bodies: the same frame is shaded without them.

@@ -423,7 +423,7 @@ fn group_of(setting: &Setting, seen: &Seen<'_>, face: u32) -> usize {
     let is_simple = setting.look == PictureLook::Simple;
     match drawn.source {
         FaceSource::Ground { .. } => usize::from(drawn.label).min(EVEN - 1),
-        FaceSource::Mesh { .. } => usize::from(UNDER_A_SCAN.id()),
+        FaceSource::Mesh { .. } | FaceSource::Splats => usize::from(UNDER_A_SCAN.id()),
         FaceSource::Figure { .. } if is_simple => EVEN,
         FaceSource::Figure { is_cloth: true, .. } => PEOPLE,
         FaceSource::Figure { first_face, .. } => SHARED_GROUPS + first_face as usize,

@@ -21,7 +21,7 @@ pub(super) fn material_of(setting: &Setting, seen: &Seen<'_>, face: u32) -> (Mat
             let props = &seen.scene.props;
             (Material::Skin(Painted::new(&props.triangles[triangle as usize].skin, &props.textures)), flat)
         }
-        FaceSource::Mesh { .. } => (Material::Ground(UNDER_A_SCAN), flat),
+        FaceSource::Mesh { .. } | FaceSource::Splats => (Material::Ground(UNDER_A_SCAN), flat),
         FaceSource::Figure { is_cloth: true, .. } => (Material::Cloth, flat),
         FaceSource::Figure { look, .. } => {
             let look = &seen.people.looks[look as usize];

@@ -7,6 +7,7 @@ use super::sky;
 use crate::look::PictureLook;
 use crate::passes::ids::{Band, SeenRuns};
 use crate::people::People;
+use crate::scan_air::ScanAir;
 use crate::scene::Scene;
 use crate::setup::FrameSetup;
 use cosfly_domain::{FrameImages, Optics};
@@ -51,6 +52,12 @@ impl Shader {
     /// Whether lamps are lit in the frame at hand.
     pub fn is_night(&self) -> bool {
         self.setting.light.night > 0.0
+    }
+
+    /// Haze before a scan in the frame at hand.
+    pub(crate) fn scan_air(&self) -> Option<ScanAir> {
+        let Setting { light, haze, tone, view, .. } = &self.setting;
+        ScanAir::new((light, *haze), tone, *view)
     }
 
     /// Takes over a frame's light, camera and shadows.
