@@ -262,6 +262,23 @@ fn finished_flights_are_held_against_the_mesh_and_a_planted_triangle_is_found() 
     for words in ["[verify-mesh]", "comes within 0.", &named] {
         assert!(printed.stdout.contains(words), "{words}: {}", printed.stdout);
     }
+    let doctor = |more: &[&str]| cosfly(&[&["doctor", shown, "--mesh"], more].concat()).within(street.path()).run();
+    let printed = doctor(&["wall.obj"]);
+    assert_eq!(printed.code, Some(1), "{}", printed.stdout);
+    for words in ["[scan-clearance]", "[scan-ground]", &flight.trajectory_id] {
+        assert!(printed.stdout.contains(words), "{words}: {}", printed.stdout);
+    }
+    let printed = doctor(&["scan.glb"]);
+    assert!(!printed.stdout.contains("[scan-"), "{}{}", printed.stdout, printed.stderr);
+    // A scan that lies two metres too high.
+    let printed = doctor(&["scan.glb", "--mesh-set", "origin_m=[0, 0, 2]"]);
+    assert!(
+        printed.code == Some(1) && printed.stdout.contains("under the mesh in the median [scan-ground]"),
+        "{}",
+        printed.stdout
+    );
+    let printed = doctor(&["none.glb"]);
+    assert!(printed.code == Some(4) && printed.stderr.contains("none.glb"), "{}", printed.stderr);
     // Far away it hurts nobody.
     let printed = verify(&["--mesh", "wall.obj", "--mesh-set", "origin_m=[0, 0, 300]"]);
     assert_eq!(printed.code, Some(0), "{}", printed.stdout);

@@ -5,6 +5,7 @@ use crate::sources::{lerobot, ours, v7};
 use crate::texts::{GivenTexts, Judged, TextFigures, TextTally};
 use crate::{ExaminedEpisode, Flag, Severity, checks, shortcuts};
 use cosfly_diagnose::{Diagnostic, Fault, Result, Stop, absent};
+use cosfly_metrics::scanned_mesh::ScannedMesh;
 use cosfly_metrics::shortcuts::ShortcutFigures;
 use cosfly_read::{Identity, PublishedDataset};
 use serde::Serialize;
@@ -85,24 +86,36 @@ impl Examination {
 /// # Errors
 /// `doctor-layout` for an unknown layout; refusals of the machine. Faults of the data are flags.
 pub fn examine(folder: &Path, quotas: &[Quota], progress: &mut dyn FnMut(u64, u64)) -> Result<Examination> {
-    examine_texts(folder, quotas, None, (&Stop::default(), progress))
+    examine_given(folder, quotas, &HeldAgainst::default(), (&Stop::default(), progress))
 }
 
-/// Like [`examine`], with `texts` in the place of the data's own instructions. The flag ends the work within a second.
+/// What the data are held against, beside themselves.
+#[derive(Debug, Default)]
+pub struct HeldAgainst {
+    /// Texts in the place of the data's own instructions.
+    pub texts: Option<GivenTexts>,
+    /// The mesh of the scan that was flown in, in the world of the flights; of no town: of all.
+    pub mesh: Option<ScannedMesh>,
+}
+
+/// Like [`examine`], against what is given. The flag ends the work within a second.
 ///
 /// # Errors
 /// Those of [`examine`]; `doctor-texts` for texts about an episode that is not there; the user stopped the work.
-pub fn examine_texts(
+pub fn examine_given(
     folder: &Path,
     quotas: &[Quota],
-    texts: Option<&GivenTexts>,
+    HeldAgainst { texts, mesh }: &HeldAgainst,
     (stop, progress): (&Stop, &mut dyn FnMut(u64, u64)),
 ) -> Result<Examination> {
     let mut tally = Tally::new(quotas);
-    tally.texts.judged = texts.map(|_| Judged::default());
+    tally.texts.judged = texts.as_ref().map(|_| Judged::default());
     let mut add = |mut episode: ExaminedEpisode| {
         if let Some(texts) = texts {
             texts.give(&mut episode);
+        }
+        if let Some(mesh) = mesh {
+            tally.flags.extend(checks::scan::check(&episode, mesh));
         }
         tally.add(&episode);
     };
@@ -124,7 +137,7 @@ pub fn examine_texts(
         (Layout::Lerobot, flags, notes)
     };
     stop.check("doctor")?;
-    if let Some(stranger) = texts.and_then(|texts| texts.stranger(tally.traces.iter().map(Trace::id))) {
+    if let Some(stranger) = texts.as_ref().and_then(|texts| texts.stranger(tally.traces.iter().map(Trace::id))) {
         let message = format!("there are texts about `{stranger}`, which is no episode of `{}`", folder.display());
         return Err(Diagnostic::new("doctor-texts", Fault::Input, message));
     }

@@ -26,6 +26,6 @@ mod whole_files;
 
 pub use cosfly_metrics::shortcuts::{Probe, ShortcutFigures};
 pub use episode::{ExaminedEpisode, ExaminedLook, ExaminedMoment};
-pub use examination::{Examination, Layout, Quota, examine, examine_texts};
+pub use examination::{Examination, HeldAgainst, Layout, Quota, examine, examine_given};
 pub use flag::{Flag, Severity};
 pub use texts::{GivenTexts, Judged, TextFigures, TextVerdict};

@@ -194,7 +194,8 @@ fn an_examination_that_is_stopped_ends_between_frames() {
     let folder = tempfile::tempdir().expect("a folder");
     write(folder.path(), &|_| {});
     let stop = cosfly_diagnose::Stop::of(Arc::new(AtomicBool::new(true)));
-    let refusal = crate::examine_texts(folder.path(), &[], None, (&stop, &mut |_, _| {})).expect_err("stopped");
+    let refusal = crate::examine_given(folder.path(), &[], &crate::HeldAgainst::default(), (&stop, &mut |_, _| {}))
+        .expect_err("stopped");
     assert_eq!(refusal.fault, cosfly_diagnose::Fault::Stopped);
 }
 

@@ -33,7 +33,6 @@ mod readings;
 mod report;
 mod resume;
 mod rows;
-mod scanned_mesh;
 mod sensed;
 mod sensed_rows;
 mod splits;
@@ -48,5 +47,4 @@ mod windows;
 
 pub use options::Options;
 pub use report::{Finding, LabelGap, VerifyReport};
-pub use scanned_mesh::ScannedMesh;
 pub use verify::verify;

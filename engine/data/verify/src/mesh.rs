@@ -3,9 +3,9 @@
 use super::flights::Flights;
 use super::report::VerifyReport;
 use super::rows::PlacedFlight;
-use super::scanned_mesh::ScannedMesh;
 use cosfly_diagnose::Result;
 use cosfly_frames::DVec3;
+use cosfly_metrics::scanned_mesh::ScannedMesh;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 

@@ -1,8 +1,8 @@
 //! Options of a check: its parts and its manner.
 
 use super::flight_list::FlightList;
-use super::scanned_mesh::ScannedMesh;
 use cosfly_diagnose::Stop;
+use cosfly_metrics::scanned_mesh::ScannedMesh;
 use std::path::PathBuf;
 use std::sync::Arc;
 

@@ -6,7 +6,7 @@ use cosfly_frames::DVec3;
 use cosfly_materials::dry_days;
 use cosfly_models::Model;
 use cosfly_models::mesh::{MeshConfig, NamedFile, TexturedMesh};
-use cosfly_render::{RenderConfig, Scene, SceneMesh, SceneModel, SceneScan, SceneSplats};
+use cosfly_render::{RenderConfig, Renderer, Scene, SceneMesh, SceneModel, SceneScan, SceneSplats};
 use cosfly_scans::faces_and_plates::FacesAndPlates;
 use cosfly_splats::SplatCloud;
 use cosfly_stage::{Settle, Source, SourceCheck};
@@ -199,13 +199,29 @@ pub fn scan_notes(config: &RenderConfig) -> (Vec<String>, Vec<String>) {
     (notes, warnings)
 }
 
-/// What a film shows of its splats.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct SplatsSeen {
-    /// Median distance from the geometry, metres; none without pixels of both.
-    pub off_m: Option<f32>,
+/// What the frames of a film show of its splats.
+#[derive(Clone, Debug, Default)]
+pub struct SplatsTally {
+    /// Median distances from the geometry by frame, metres.
+    off_m: Vec<f32>,
     /// Pixels of bodies that splats hide, and all pixels of bodies.
-    pub hidden: [u64; 2],
+    hidden: [u64; 2],
+}
+
+impl SplatsTally {
+    /// Adds the frame that was drawn last.
+    pub fn add(&mut self, renderer: &Renderer) {
+        self.off_m.extend(renderer.splats_off_m());
+        let hidden = renderer.hidden_by_splats();
+        self.hidden.iter_mut().zip(hidden).for_each(|(sum, pixels)| *sum += pixels as u64);
+    }
+
+    /// Median distance over all frames, metres; none without pixels of both splats and geometry.
+    fn median_off_m(&self) -> Option<f32> {
+        let mut sorted = self.off_m.clone();
+        sorted.sort_unstable_by(f32::total_cmp);
+        sorted.get(sorted.len() / 2).copied()
+    }
 }
 
 /// Notes on the scan of a film by their names, and warnings where it does not belong to the geometry of the map and of the flight.
@@ -213,13 +229,13 @@ pub fn compared(
     config: &RenderConfig,
     scene: &Scene,
     flight: &Trajectory,
-    splats_seen: &SplatsSeen,
+    seen: &SplatsTally,
 ) -> (BTreeMap<String, String>, Vec<String>) {
     let mesh = scene.mesh().map(|mesh| {
         let remarks = mesh.remarks().iter().map(|remark| (remark.clone(), Some(format!("the mesh: {remark}"))));
         ("mesh", [vec![matched(mesh), kept_away(mesh, flight)], remarks.collect()].concat())
     });
-    let splats = config.splats.as_ref().map(|_| ("splats", vec![lying(splats_seen.off_m), hiding(splats_seen.hidden)]));
+    let splats = config.splats.as_ref().map(|_| ("splats", vec![lying(seen.median_off_m()), hiding(seen.hidden)]));
     let (mut notes, mut warnings) = (BTreeMap::new(), vec![]);
     for (name, found) in mesh.into_iter().chain(splats) {
         let words: Vec<String> = found.iter().map(|(note, _)| note.clone()).collect();

@@ -11,7 +11,7 @@ use cosfly_domain::{
     BodyInSpace, Camera, PlanOutcome, TARGET_INSTANCE, TargetView, Trajectory, largest_object_instance,
 };
 use cosfly_experts::memo::Memo;
-use cosfly_experts::render_files::SplatsSeen;
+use cosfly_experts::render_files::SplatsTally;
 use cosfly_experts::world::{check_same_town, link_town, world};
 use cosfly_experts::{artifacts, pictures, render_files};
 use cosfly_figures::{Bystander, outfit_of};
@@ -146,10 +146,10 @@ impl Stage for RenderStage {
         let place = Place { scene: &scene, world: &world, crowd: &crowd };
         let drones = artifacts::DRONES.find(inputs, artifact)?.unwrap_or_default().counted(&trajectory);
         let filmed = filmed_flight(trajectory.clone(), &config, &world.exact, (&around, drones));
-        let mut seen = self.draw(outputs, context, &place, (&trajectory, &filmed), (&config, &shooting))?;
+        let seen = self.draw(outputs, context, &place, (&trajectory, &filmed), (&config, &shooting))?;
         let mut notes = notes_of(&crowd, &seen.sightings);
         let (on_card, mut warnings) = render_files::scan_notes(&self.config);
-        let (found, more) = render_files::compared(&self.config, &scene, &trajectory, &seen.of_splats());
+        let (found, more) = render_files::compared(&self.config, &scene, &trajectory, &seen.splats);
         notes.extend(found);
         warnings.extend(more);
         let mut town = TownInfo::of(&world.town, town_digest);
@@ -242,19 +242,7 @@ struct SeenPeople {
     by_dense_rays: Vec<Option<f64>>,
     sightings: Vec<Sighting>,
     bodies_3d: Vec<BodyInSpace>,
-    /// Median distances between splats and geometry by frame, metres.
-    splats_off_m: Vec<f32>,
-    /// Pixels of bodies that splats hide, and all pixels of bodies.
-    hidden: [u64; 2],
-}
-
-impl SeenPeople {
-    /// What the frames show of splats; of distances the median.
-    fn of_splats(&mut self) -> SplatsSeen {
-        self.splats_off_m.sort_unstable_by(f32::total_cmp);
-        let off_m = self.splats_off_m.get(self.splats_off_m.len() / 2).copied();
-        SplatsSeen { off_m, hidden: self.hidden }
-    }
+    splats: SplatsTally,
 }
 
 /// Notes about the people around.
@@ -345,9 +333,7 @@ impl RenderStage {
                 }));
                 seen.views.push(TargetView { visible_by_rays: filmed.visibility[number], ..view });
                 seen.sightings.extend(sightings);
-                seen.splats_off_m.extend(rig.renderer.splats_off_m());
-                let hidden = rig.renderer.hidden_by_splats();
-                seen.hidden.iter_mut().zip(hidden).for_each(|(sum, pixels)| *sum += pixels as u64);
+                seen.splats.add(&rig.renderer);
             }
             pack.finish().map(drop)
         })?;

@@ -21,6 +21,7 @@ pub mod deltas;
 pub mod depth;
 pub mod detection;
 pub mod drawn_ground;
+pub mod scanned_mesh;
 pub mod scores;
 pub mod segmentation;
 pub mod shortcuts;

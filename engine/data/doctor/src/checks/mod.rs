@@ -11,6 +11,7 @@ mod median;
 mod motion;
 mod pictures;
 mod projection;
+pub(crate) mod scan;
 mod surface;
 mod surroundings;
 mod time;

@@ -1,12 +1,15 @@
 //! `cosfly doctor`: examines anyone's data and prints its findings.
 
 use crate::command::{Command, Outcome};
+use crate::commands::scanned_mesh::MeshArguments;
 use crate::console::Console;
 use crate::exit;
 use crate::text::count;
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, plausible};
-use cosfly_doctor::{Examination, GivenTexts, Layout, Probe, Severity, ShortcutFigures, TextFigures, examine_texts};
+use cosfly_doctor::{
+    Examination, GivenTexts, HeldAgainst, Layout, Probe, Severity, ShortcutFigures, TextFigures, examine_given,
+};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -25,6 +28,7 @@ Examples:
   cosfly doctor out/carla_town --quota 0.2:2-4       do 20 % of the episodes lose their target for 2 to 4 s?
   cosfly doctor out/carla_town --out verdict.json    every flag, and which episodes are without one
   cosfly doctor out/carla_town --texts mine.jsonl    are my texts about these flights true, and how different are they?
+  cosfly doctor out/street --mesh street.glb         do flights and people fit the scan?
 
 A damage is a statement of the data that is false; an imperfection is true and worse than elsewhere. Exits with 1 when there
 is a damage, more imperfect episodes than --imperfect-share allows, or a quota that is not met."
@@ -42,6 +46,8 @@ pub struct Arguments {
     /// Judge these texts in the place of the data's own: lines of JSON with trajectory_id, language and text
     #[arg(long, value_name = "FILE")]
     texts: Option<PathBuf>,
+    #[command(flatten)]
+    mesh: MeshArguments,
     /// File for all findings as JSON
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -55,8 +61,9 @@ impl Command for Arguments {
         let progress = console.progress("doctor", "episodes");
         let examination = {
             let texts = self.texts.as_deref().map(GivenTexts::read).transpose()?;
+            let given = HeldAgainst { texts, mesh: self.mesh.read(&self.dir)? };
             let (stop, mut told) = (console.stop(), |done, all| progress(done, all));
-            examine_texts(&self.dir, &self.quotas, texts.as_ref(), (&stop, &mut told))?
+            examine_given(&self.dir, &self.quotas, &given, (&stop, &mut told))?
         };
         drop(progress);
         let json = || serde_json::to_string_pretty(&examination).unwrap_or_default();

@@ -27,6 +27,7 @@ mod plugin_check;
 mod plugin_new;
 mod preview;
 mod run;
+mod scanned_mesh;
 mod schema;
 mod task;
 mod town;

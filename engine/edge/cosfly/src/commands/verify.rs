@@ -1,10 +1,10 @@
 //! `cosfly verify`: checks a finished dataset.
 
-mod mesh;
 mod regenerate;
 
 use crate::arguments::{RecipeArguments, StoreArguments};
 use crate::command::{Command, Outcome, Refusals};
+use crate::commands::scanned_mesh::MeshArguments;
 use crate::console::Console;
 use crate::exit;
 use crate::text::{bytes, count};
@@ -16,6 +16,7 @@ use regenerate::{recipe_of_version, regenerated};
 use serde_json::json;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Check a finished dataset: hashes, counts, CRCs, schemas, reprojection, action and pose
 #[derive(Debug, Parser)]
@@ -54,7 +55,7 @@ pub struct Arguments {
     #[arg(long = "set", value_name = "PATH=VALUE", requires = "recipe")]
     overrides: Vec<String>,
     #[command(flatten)]
-    mesh: mesh::MeshArguments,
+    mesh: MeshArguments,
     #[command(flatten)]
     store: StoreArguments,
     /// Print JSON
@@ -69,7 +70,7 @@ impl Command for Arguments {
             jobs: self.jobs.map(usize::from),
             sample: self.sample.map(|sample| sample as usize),
             resume: self.resume.clone(),
-            mesh: self.mesh.read(&self.dir)?,
+            mesh: self.mesh.read(&self.dir)?.map(Arc::new),
             stop: console.stop(),
         };
         let report = cosfly_verify::verify(&self.dir, &options, &mut |done, all| progress(done, all))?;

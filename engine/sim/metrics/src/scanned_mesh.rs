@@ -27,8 +27,27 @@ impl ScannedMesh {
         Self { town, triangles: TriangleBvh::build(&corners, &numbers) }
     }
 
+    /// How far a point lies over the surface below or above it that is nearest to it, metres (negative: under it); none where there is no
+    /// surface within `within_m`.
+    pub fn height_over(&self, point: DVec3, within_m: f64) -> Option<f64> {
+        let (reach, mut best) = (DVec3::Z * within_m, None);
+        self.triangles.within(point - reach, point + reach, &mut |number| {
+            let [a, b, c] = self.triangles.triangles()[number as usize].corners_in_world;
+            let (u, v, w) = (b - a, c - a, point - a);
+            let whole = u.x * v.y - u.y * v.x;
+            let (second, third) = ((w.x * v.y - w.y * v.x) / whole, (u.x * w.y - u.y * w.x) / whole);
+            // Upright triangles have no extent in plan: their shares are no numbers.
+            if second >= 0.0 && third >= 0.0 && second + third <= 1.0 {
+                let over_m = w.z - second * u.z - third * v.z;
+                let is_nearer = best.is_none_or(|best: f64| over_m.abs() < best.abs());
+                best = if over_m.abs() <= within_m && is_nearer { Some(over_m) } else { best };
+            }
+        });
+        best
+    }
+
     /// The part of a path that comes nearer than `within_m`, by the number of its first point, and how near it comes there.
-    pub(super) fn nearest(&self, path: &[DVec3], within_m: f64) -> Option<(usize, f64)> {
+    pub fn nearest(&self, path: &[DVec3], within_m: f64) -> Option<(usize, f64)> {
         let mut best = None;
         let mut least_m = within_m;
         for (number, pair) in path.windows(2).enumerate() {
@@ -97,5 +116,17 @@ mod tests {
         }
         let flat = [DVec3::ZERO, DVec3::X, 2.0 * DVec3::X];
         assert_eq!(from_point_m(&flat, DVec3::new(1.5, 0.0, 2.0)), 2.0);
+    }
+
+    #[test]
+    fn heights_count_from_the_nearest_surface_below_or_above() {
+        let level = |z: f64| [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]].map(|[x, y]| DVec3::new(x, y, z + 0.1 * x));
+        let upright = [DVec3::ZERO, DVec3::new(2.0, 2.0, 0.0), DVec3::new(1.0, 1.0, 9.0)];
+        let mesh = ScannedMesh::new("a".to_owned(), [level(0.0), level(2.0), upright].into_iter());
+        let over = |z: f64| mesh.height_over(DVec3::new(1.0, 1.0, z), 1.5);
+        for (z, expected) in [(0.4, 0.3), (0.0, -0.1), (1.6, -0.5), (2.3, 0.2)] {
+            assert!(over(z).is_some_and(|it| (it - expected).abs() < 1e-9), "{z}: {:?}", over(z));
+        }
+        assert_eq!((over(4.0), mesh.height_over(DVec3::new(3.0, 3.0, 0.3), 1.5)), (None, None));
     }
 }

@@ -1,19 +1,19 @@
-//! `cosfly verify --mesh`: the scan that flights are held against.
+//! `cosfly verify --mesh`, `cosfly doctor --mesh`: the scan that flights are held against.
 
 use clap::Args;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_experts::render_files::read_mesh;
+use cosfly_frames::DVec3;
+use cosfly_metrics::scanned_mesh::ScannedMesh;
 use cosfly_models::mesh::{MeshConfig, MeshTriangle};
 use cosfly_read::PublishedDataset;
-use cosfly_verify::ScannedMesh;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 /// The scan and its place.
 #[derive(Debug, Args)]
 pub struct MeshArguments {
-    /// Mesh of the scan that was flown in (.glb, .gltf, .obj): flights keep the clearance of their certificates from its triangles
+    /// Mesh of the scan that was flown in (.glb, .gltf, .obj): flights keep the clearance that they state from its triangles
     #[arg(long, value_name = "FILE")]
     mesh: Option<PathBuf>,
     /// Key of `mesh` as in the recipe, such as up_axis=z or origin_m=[0, 0, 2] (repeatable)
@@ -24,14 +24,17 @@ pub struct MeshArguments {
     mesh_town: Option<String>,
 }
 
+fn refused(message: String, hint: String) -> Box<Diagnostic> {
+    Diagnostic::new("mesh-placed", Fault::Recipe, message).hint(hint)
+}
+
 impl MeshArguments {
     /// The mesh in the world of the dataset's flights.
     ///
     /// # Errors
     /// Files that cannot be read, keys that no mesh has, a town that is not told.
-    pub fn read(&self, dataset: &Path) -> Result<Option<Arc<ScannedMesh>>> {
+    pub fn read(&self, dataset: &Path) -> Result<Option<ScannedMesh>> {
         let Some(file) = &self.mesh else { return Ok(None) };
-        let refused = |message: String, hint: String| Diagnostic::new("mesh-placed", Fault::Recipe, message).hint(hint);
         let mut keys = serde_json::Map::from_iter([("source".to_owned(), "".into())]);
         for change in &self.mesh_set {
             let Some((key, value)) = change.split_once('=') else {
@@ -47,6 +50,22 @@ impl MeshArguments {
                     .into();
             refused(format!("the mesh cannot be placed: {error}"), hint)
         })?;
+        let (town, offset_m) = self.town_of(dataset)?;
+        if config.files.is_empty() {
+            // Colours count for nothing here: pictures that are not found are told by the mesh.
+            let bytes = std::fs::read(file).unwrap_or_default();
+            config.files = crate::commands::map::mesh::beside(file, &bytes).into_iter().map(|(name, _)| name).collect();
+        }
+        let beside: Vec<PathBuf> = config.files.iter().map(|name| file.with_file_name(name)).collect();
+        let mesh = read_mesh(&config, file, &beside, offset_m)?;
+        Ok(Some(ScannedMesh::new(town, mesh.triangles.iter().map(MeshTriangle::corners))))
+    }
+
+    /// The town whose world the mesh lies in, and what its reader took off the map's points; none of data of others.
+    fn town_of(&self, dataset: &Path) -> Result<(String, DVec3)> {
+        if !dataset.join("data/trajectories").is_dir() {
+            return Ok((self.mesh_town.clone().unwrap_or_default(), DVec3::ZERO));
+        }
         let dataset = PublishedDataset::open(dataset)?;
         let flights = dataset.flights();
         let mut towns: Vec<&str> = flights.iter().map(|flight| flight.town.as_str()).collect();
@@ -63,15 +82,7 @@ impl MeshArguments {
                 return Err(refused(message, format!("give one with `--mesh-town`: {}", towns.join(", "))));
             }
         };
-        let offset_m =
-            flights.iter().find(|flight| flight.town == town).map_or_else(Default::default, |it| it.town_offset_m);
-        if config.files.is_empty() {
-            // Colours count for nothing here: pictures that are not found are told by the mesh.
-            let bytes = std::fs::read(file).unwrap_or_default();
-            config.files = crate::commands::map::mesh::beside(file, &bytes).into_iter().map(|(name, _)| name).collect();
-        }
-        let beside: Vec<PathBuf> = config.files.iter().map(|name| file.with_file_name(name)).collect();
-        let mesh = read_mesh(&config, file, &beside, offset_m)?;
-        Ok(Some(Arc::new(ScannedMesh::new(town.to_owned(), mesh.triangles.iter().map(MeshTriangle::corners)))))
+        let of_town = flights.iter().find(|flight| flight.town == town);
+        Ok((town.to_owned(), of_town.map_or_else(Default::default, |it| it.town_offset_m)))
     }
 }
