@@ -12,7 +12,8 @@ const RELATIVES: &[(IsIt, &str)] = &[
     (|head| head.starts_with(b"PK\x03\x04"), "the file is a ZIP archive: unpack it"),
     (
         |head| head.starts_with(&[0x1f, 0x8b]),
-        "the file is packed by gzip: unpack it with `gunzip`; splats (`.spz`) are no map but `splats.source` of stage `render`",
+        "the file is packed by gzip: unpack it with `gunzip`; splats (`.spz`) are no map but `splats.source` of stage `render`, over a map of \
+         the same place",
     ),
     (
         |head| holds(head, "<net ") && (holds(head, "<location") || holds(head, "net_file.xsd")),
@@ -42,6 +43,7 @@ const RELATIVES: &[(IsIt, &str)] = &[
         "the file is STL, which has no names of things: open it in Blender, name its parts and export it as GLB or OBJ",
     ),
     (|head| head.starts_with(b"ASTM-E57"), "the file is E57: `pdal translate FILE cloud.laz` makes LAZ of it"),
+    (|head| head.starts_with(b"NGSP") || is_splats(head), SPLATS),
     (
         is_scan,
         "the file seems to be a scan as KITTI has them, four 32-bit numbers a point, or five as in nuScenes: put a head of PLY before \
@@ -54,6 +56,21 @@ const RELATIVES: &[(IsIt, &str)] = &[
          (its rows) and a `property double` for each column, the first three x, y, z",
     ),
 ];
+
+const SPLATS: &str = "the file holds Gaussian splats (`.splat`, `.spz`): they are no map but `splats.source` of stage `render`, over a map of the same \
+     place; of `.ply` files the map takes the middles with `options.splats_as_points = true`";
+
+/// Splats of 32 bytes each: a place, three lengths, a colour, and a turn of length one.
+fn is_splats(head: &[u8]) -> bool {
+    let is_splat = |own: &[u8; 32]| {
+        let mut numbers = floats(&own[..24]);
+        let is_place = numbers.by_ref().take(3).all(|it| it == 0.0 || (1e-9..1e6).contains(&it.abs()));
+        let turn: f32 = own[28..].iter().map(|part| ((f32::from(*part) - 128.0) / 128.0).powi(2)).sum();
+        is_place && numbers.all(|it| (0.0..1e4).contains(&it)) && (0.9..1.1).contains(&turn)
+    };
+    let splats = head.as_chunks::<32>().0;
+    !splats.is_empty() && splats.iter().all(is_splat)
+}
 
 fn is_tile(head: &[u8]) -> bool {
     [b"b3dm", b"i3dm", b"pnts", b"cmpt"].iter().any(|magic| head.starts_with(*magic))

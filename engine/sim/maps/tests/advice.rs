@@ -227,6 +227,11 @@ fn other_formats_are_told_by_their_content() {
         facets.extend([0, 0]);
     }
     refused(&facets, "STL");
+    // A place, three lengths, a colour, a turn of length one.
+    let numbers = [1.5, -200.0, 3.0, 0.01, 0.2, 0.0_f32].map(f32::to_le_bytes).concat();
+    let splat = [&numbers[..], &[200, 90, 4, 255, 128 + 73, 128 - 73, 128 + 74, 128]].concat();
+    refused(&splat.repeat(40), "splats.source");
+    refused(b"NGSP\x04\0\0\0", "splats.source");
     // Neither is told of a text, nor of any bytes.
     for bytes in [&b"hello"[..], b"1 2\n3 4\n", &[7; 200]] {
         let error = recognise(bytes).unwrap_err();

@@ -16,6 +16,8 @@ const BASIS_LZ: u32 = 1;
 const ZSTANDARD: u32 = 2;
 /// Most bytes of a picture for each byte packed by Zstandard, whose shortest block has four bytes and holds 128 KiB at most.
 const MOST_EXPANSION: usize = (128 << 10) / 4;
+/// Unpacked blocks that are kept.
+const KNOWN: usize = 4096;
 /// Pixels of a block's side.
 const SIDE: usize = 4;
 
@@ -76,11 +78,28 @@ fn unpacked(level: &[u8], packing: u32, size: usize) -> Result<Vec<u8>, String> 
     if own.len() == size { Ok(own) } else { Err(format!("it has {} of pixels for {size}", counted(own.len(), "byte"))) }
 }
 
+/// The place of a block among those that are known.
+fn place_of(block: &[u8; 16]) -> usize {
+    let mixed = u128::from_le_bytes(*block);
+    let mixed = ((mixed >> 64) as u64 ^ mixed as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    (mixed >> 32) as usize % KNOWN
+}
+
 fn uastc(blocks: &[u8], width: usize, height: usize) -> Option<Picture> {
     let mut samples = vec![0; 4 * width * height];
+    // Small files of large pictures repeat their blocks, and to unpack one takes long.
+    let mut known = vec![None; KNOWN];
     for (at, block) in blocks.as_chunks().0.iter().enumerate() {
         let (left, top) = (at % width.div_ceil(SIDE) * SIDE, at / width.div_ceil(SIDE) * SIDE);
-        let pixels = unpack_uastc(block, false)?;
+        let place = &mut known[place_of(block)];
+        let pixels = match place {
+            Some((of, pixels)) if of == block => *pixels,
+            _ => {
+                let pixels = unpack_uastc(block, false)?;
+                *place = Some((*block, pixels));
+                pixels
+            }
+        };
         for (row, pixels) in pixels.as_chunks::<SIDE>().0.iter().enumerate().take(height - top) {
             let to = &mut samples[4 * ((top + row) * width + left)..][..4 * SIDE.min(width - left)];
             for (to, own) in to.as_chunks_mut().0.iter_mut().zip(pixels) {
@@ -134,6 +153,23 @@ mod tests {
         file.resize(148, 0);
         file.extend(level);
         file
+    }
+
+    #[test]
+    fn blocks_that_repeat_are_unpacked_once_and_stay_apart() {
+        let file = include_bytes!("pictures/four_uastc.ktx2");
+        let [start, length, _] = places::<3>(file, 80).expect("a level");
+        let blocks = &file[start..start + length];
+        let (first, other) = (&blocks[..16], &blocks[48..64]);
+        let row = [first, other, other, first, first, other].concat();
+        let picture = uastc(&row.repeat(2), 24, 8).expect("a picture");
+        let alone = [first, other].map(|block| uastc(block, 4, 4).expect("a picture"));
+        for at in 0..24 * 8 {
+            let (column, line) = (at % 24, at / 24);
+            let of = &alone[usize::from([1, 2, 5].contains(&(column / 4)))];
+            let own = column % 4 + 4 * (line % 4);
+            assert_eq!((picture.rgb[at], picture.alpha.get(at)), (of.rgb[own], of.alpha.get(own)), "pixel {at}");
+        }
     }
 
     #[test]

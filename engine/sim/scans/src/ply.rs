@@ -56,6 +56,12 @@ fn town(bytes: &[u8], options: &CloudOptions) -> Result<(Town, Vec<String>), Map
             .hint("name a mesh or a cloud of the place as the map, and this file in stage `render`: `splats = { source = ... }`")
             .hint("`options.splats_as_points = true` takes the middles as points; the dataset's card says so"));
     }
+    if head.properties.iter().any(|own| own.0 == "packed_position") {
+        let error =
+            MapError::new("the file holds Gaussian splats that are packed, as SuperSplat packs them: they are no map");
+        return Err(error
+            .hint("name a mesh or a cloud of the place as the map; `npx @playcanvas/splat-transform packed.ply plain.ply` unpacks the splats for stage `render`"));
+    }
     let columns = Columns::find(head.properties.iter().map(|(name, _)| name.as_str()))?;
     let unit_m = options.unit_m.unwrap_or(1.0);
     let mut cloud = CloudBuilder::new(options.up_axis);

@@ -9,7 +9,8 @@ use std::collections::BTreeMap;
 /// Longest head, bytes.
 const LONGEST_HEAD: usize = 64 << 10;
 const END: &[u8] = b"end_header\n";
-const ANOTHER: &str = "export the scene as the reference trainer writes it: a binary, uncompressed `.ply`";
+const ANOTHER: &str = "export the scene as the reference trainer writes it: a binary, uncompressed `.ply`, such as `npx @playcanvas/splat-transform packed.ply \
+     plain.ply` makes of the packed ones";
 
 /// Where the numbers of a splat stand in a row.
 struct Columns {
