@@ -22,6 +22,8 @@ const MOST_SPLAT_BYTES: u64 = 4 << 30;
 const MOST_MESH_BYTES: u64 = 4 << 30;
 /// Splats farther from the geometry in the median seem to be of another place, metres.
 const MOST_OFF_M: f32 = 0.5;
+/// A scan whose ground is farther from drawn ground than this seems to be in another light, stops: grounds differ by one.
+const MOST_STOPS: f32 = 1.5;
 /// More of the pixels of bodies behind splats are a warning.
 const MOST_HIDDEN: f64 = 0.1;
 /// A mesh with less of its area on the map's boxes and ground seems to be of another place.
@@ -199,29 +201,32 @@ pub fn scan_notes(config: &RenderConfig) -> (Vec<String>, Vec<String>) {
     (notes, warnings)
 }
 
-/// What the frames of a film show of its splats.
+/// What the frames of a film show of its scan.
 #[derive(Clone, Debug, Default)]
-pub struct SplatsTally {
+pub struct ScanTally {
     /// Median distances from the geometry by frame, metres.
     off_m: Vec<f32>,
     /// Pixels of bodies that splats hide, and all pixels of bodies.
     hidden: [u64; 2],
+    /// How much brighter the scan's ground is than ground is drawn, by frame, stops.
+    brighter_stops: Vec<f32>,
 }
 
-impl SplatsTally {
+impl ScanTally {
     /// Adds the frame that was drawn last.
     pub fn add(&mut self, renderer: &Renderer) {
         self.off_m.extend(renderer.splats_off_m());
+        self.brighter_stops.extend(renderer.scan_brighter_stops());
         let hidden = renderer.hidden_by_splats();
         self.hidden.iter_mut().zip(hidden).for_each(|(sum, pixels)| *sum += pixels as u64);
     }
+}
 
-    /// Median distance over all frames, metres; none without pixels of both splats and geometry.
-    fn median_off_m(&self) -> Option<f32> {
-        let mut sorted = self.off_m.clone();
-        sorted.sort_unstable_by(f32::total_cmp);
-        sorted.get(sorted.len() / 2).copied()
-    }
+/// The median of some numbers; none of none.
+fn median(numbers: &[f32]) -> Option<f32> {
+    let mut sorted = numbers.to_vec();
+    sorted.sort_unstable_by(f32::total_cmp);
+    sorted.get(sorted.len() / 2).copied()
 }
 
 /// Notes on the scan of a film by their names, and warnings where it does not belong to the geometry of the map and of the flight.
@@ -229,13 +234,16 @@ pub fn compared(
     config: &RenderConfig,
     scene: &Scene,
     flight: &Trajectory,
-    seen: &SplatsTally,
+    seen: &ScanTally,
 ) -> (BTreeMap<String, String>, Vec<String>) {
     let mesh = scene.mesh().map(|mesh| {
         let remarks = mesh.remarks().iter().map(|remark| (remark.clone(), Some(format!("the mesh: {remark}"))));
-        ("mesh", [vec![matched(mesh), kept_away(mesh, flight)], remarks.collect()].concat())
+        ("mesh", [vec![matched(mesh), kept_away(mesh, flight), bright("mesh", seen)], remarks.collect()].concat())
     });
-    let splats = config.splats.as_ref().map(|_| ("splats", vec![lying(seen.median_off_m()), hiding(seen.hidden)]));
+    let splats = config
+        .splats
+        .as_ref()
+        .map(|_| ("splats", vec![lying(median(&seen.off_m)), hiding(seen.hidden), bright("splats", seen)]));
     let (mut notes, mut warnings) = (BTreeMap::new(), vec![]);
     for (name, found) in mesh.into_iter().chain(splats) {
         let words: Vec<String> = found.iter().map(|(note, _)| note.clone()).collect();
@@ -275,6 +283,21 @@ fn lying(off_m: Option<f32>) -> (String, Option<String>) {
     (note, is_elsewhere.then_some(warning))
 }
 
+/// The note about the light of a scan under a key beside that of bodies, and the warning where they are far apart.
+fn bright(key: &str, seen: &ScanTally) -> (String, Option<String>) {
+    let Some(stops) = median(&seen.brighter_stops) else {
+        return ("too little ground to compare its light".to_owned(), None);
+    };
+    let side = if stops < 0.0 { "darker" } else { "brighter" };
+    let note = format!("its ground is {:.1} stops {side} than ground is drawn in this light", stops.abs());
+    let warning = format!(
+        "{note}: bodies seem to stand in another light; make `{key}.exposure_ev` {:.1} {}, or give the weather of the scan",
+        stops.abs(),
+        if stops < 0.0 { "more" } else { "less" }
+    );
+    (note, (stops.abs() > MOST_STOPS).then_some(warning))
+}
+
 /// The note about bodies that splats hide, and the warning where they are many.
 fn hiding([hidden, all]: [u64; 2]) -> (String, Option<String>) {
     let share = hidden as f64 / all.max(1) as f64;
@@ -309,6 +332,12 @@ mod tests {
         assert!(warning(Some(2.0)).contains("2.0 m") && warning(None).contains("splats.up_axis"));
         assert_eq!(hiding([0, 0]), ("splats hide 0.0 % of the pixels of bodies".to_owned(), None));
         assert_eq!(hiding([9, 100]).1, None);
+        let seen = |stops: &[f32]| ScanTally { brighter_stops: stops.to_vec(), ..ScanTally::default() };
+        assert_eq!(bright("mesh", &seen(&[])).1, None);
+        let (note, warning) = bright("mesh", &seen(&[0.4, -9.0, 1.2]));
+        assert!(note.contains("0.4 stops brighter") && warning.is_none(), "{note}");
+        let (_, warning) = bright("splats", &seen(&[-2.0; 3]));
+        assert!(warning.is_some_and(|it| it.contains("`splats.exposure_ev` 2.0 more")));
         assert!(hiding([11, 100]).1.is_some_and(|it| it.contains("11.0 %")));
     }
 }

@@ -11,7 +11,7 @@ use cosfly_domain::{
     BodyInSpace, Camera, PlanOutcome, TARGET_INSTANCE, TargetView, Trajectory, largest_object_instance,
 };
 use cosfly_experts::memo::Memo;
-use cosfly_experts::render_files::SplatsTally;
+use cosfly_experts::render_files::ScanTally;
 use cosfly_experts::world::{check_same_town, link_town, world};
 use cosfly_experts::{artifacts, pictures, render_files};
 use cosfly_figures::{Bystander, outfit_of};
@@ -149,7 +149,7 @@ impl Stage for RenderStage {
         let seen = self.draw(outputs, context, &place, (&trajectory, &filmed), (&config, &shooting))?;
         let mut notes = notes_of(&crowd, &seen.sightings);
         let (on_card, mut warnings) = render_files::scan_notes(&self.config);
-        let (found, more) = render_files::compared(&self.config, &scene, &trajectory, &seen.splats);
+        let (found, more) = render_files::compared(&self.config, &scene, &trajectory, &seen.scan);
         notes.extend(found);
         warnings.extend(more);
         let mut town = TownInfo::of(&world.town, town_digest);
@@ -242,7 +242,7 @@ struct SeenPeople {
     by_dense_rays: Vec<Option<f64>>,
     sightings: Vec<Sighting>,
     bodies_3d: Vec<BodyInSpace>,
-    splats: SplatsTally,
+    scan: ScanTally,
 }
 
 /// Notes about the people around.
@@ -333,7 +333,7 @@ impl RenderStage {
                 }));
                 seen.views.push(TargetView { visible_by_rays: filmed.visibility[number], ..view });
                 seen.sightings.extend(sightings);
-                seen.splats.add(&rig.renderer);
+                seen.scan.add(&rig.renderer);
             }
             pack.finish().map(drop)
         })?;

@@ -1,5 +1,6 @@
 //! Light of scans: sRGB codes and back, and what shadows of bodies leave of it.
 
+use cosfly_domain::SemanticLabel;
 use cosfly_frames::real;
 
 /// Light of pixels without the shadows of bodies, and with them, as shares of the first.
@@ -14,6 +15,59 @@ pub fn lit_shares(without: &[u8], with: &[u8], lit: &mut Vec<f32>) {
         bright if bright > 0.0 => (sum(with) / bright).min(1.0),
         _ => 1.0,
     }));
+}
+
+/// Pixels from one to the next at which grounds are compared.
+const BETWEEN_LOOKS: usize = 61;
+/// Fewest pixels of ground that tell anything.
+const ENOUGH: usize = 20;
+/// Labels of ground.
+const GROUNDS: [SemanticLabel; 4] =
+    [SemanticLabel::Roads, SemanticLabel::SideWalks, SemanticLabel::Terrain, SemanticLabel::Ground];
+
+/// Ground of a picture in the light of its weather, to compare a scan's with.
+#[derive(Debug, Default)]
+pub struct GroundLight {
+    /// Pixels and their light.
+    drawn: Vec<(usize, f32)>,
+    /// How much brighter the scan is there, stops.
+    stops: Vec<f32>,
+}
+
+impl GroundLight {
+    /// Notes the ground as it is drawn without the scan.
+    pub fn note(&mut self, rgb: &[u8], semantic: &[u8]) {
+        let is_ground = |label: u8| GROUNDS.iter().any(|ground| ground.id() == label);
+        let pixels = semantic.iter().enumerate().step_by(BETWEEN_LOOKS).filter(|(_, label)| is_ground(**label));
+        self.drawn.clear();
+        self.drawn.extend(pixels.map(|(at, _)| (at, light_at(rgb, at))));
+    }
+
+    /// Compares the ground with that of the scan, which now lies over it.
+    pub fn compare(&mut self, rgb: &[u8]) {
+        let stops = |(at, before): &(usize, f32)| {
+            let ratio = f64::from(light_at(rgb, *at) / before);
+            (real::ln(ratio) / real::ln(2.0)) as f32
+        };
+        self.stops.clear();
+        self.stops.extend(self.drawn.iter().filter(|(_, before)| *before > 0.0).map(stops));
+        self.stops.retain(|stops| stops.is_finite());
+        self.stops.sort_unstable_by(f32::total_cmp);
+    }
+
+    /// How much brighter the scan's ground is than ground is drawn in the same light, stops, in the median; none of little ground.
+    pub fn stops(&self) -> Option<f32> {
+        self.stops.get(self.stops.len() / 2).copied().filter(|_| self.stops.len() >= ENOUGH)
+    }
+}
+
+/// Light of a pixel of three bytes, 0 to 3.
+fn light_at(rgb: &[u8], at: usize) -> f32 {
+    let light = |code: &u8| {
+        let code = f64::from(*code) / 255.0;
+        if code <= 0.04045 { code / 12.92 } else { real::powf((code + 0.055) / 1.055, 2.4) }
+    };
+    rgb.get(3 * at..3 * at + 3).map_or(0.0, |pixel| pixel.iter().map(light).sum::<f64>() as f32)
 }
 
 /// Steps of the tables from light to code and back.
@@ -76,5 +130,23 @@ mod tests {
         lit_shares(&[255, 255, 255, 90, 90, 90, 0, 0, 0], &[188, 188, 188, 90, 90, 90, 9, 9, 9], &mut lit);
         assert!((lit[0] - 0.5).abs() < 5e-3, "{lit:?}");
         assert_eq!(lit[1..], [1.0, 1.0]);
+    }
+
+    #[test]
+    fn a_scan_is_as_many_stops_brighter_as_its_ground_is() {
+        let mut ground = GroundLight::default();
+        let mut labels = vec![SemanticLabel::Roads.id(); 61 * 40];
+        labels[..61 * 10].fill(SemanticLabel::Building.id());
+        let picture = |code: u8| vec![code; 3 * labels.len()];
+        ground.note(&picture(188), &labels);
+        assert_eq!(ground.stops(), None, "nothing was compared");
+        // 255 is twice the light of 188, and 137 half of it.
+        for (code, stops) in [(188, 0.0), (255, 1.0), (137, -1.0)] {
+            ground.compare(&picture(code));
+            assert!(ground.stops().is_some_and(|it| (it - stops).abs() < 0.02), "{code}: {:?}", ground.stops());
+        }
+        ground.note(&picture(188), &labels[..61 * 20]);
+        ground.compare(&picture(255));
+        assert_eq!(ground.stops(), None, "too little ground");
     }
 }

@@ -247,8 +247,10 @@ impl Renderer {
             // Splats hide bodies: labels follow before they are counted.
             if parts == FrameParts::All && (scene.mesh.is_some() || scene.splats.is_some()) {
                 self.measure_shadows(scene, setup);
+                self.composer.ground.note(&self.images.rgb, &self.images.semantic);
                 self.draw_mesh(scene, setup);
                 self.draw_splats(scene, setup);
+                self.composer.ground.compare(&self.images.rgb);
             }
             if !self.images.on_request.is_empty() {
                 on_request::draw(&mut self.images, &self.nearest.face, &self.faces, &eye, &self.screen);

@@ -3,7 +3,7 @@
 use crate::scan_air::ScanAir;
 use cosfly_domain::Camera;
 use cosfly_frames::{DVec3, Pose, real};
-use cosfly_materials::scan_light::CodeCurve;
+use cosfly_materials::scan_light::{CodeCurve, GroundLight};
 use cosfly_splats::{Placement, SplatCloud, SplatRenderer, SplatView, SplatsConfig, SplatsProblem};
 
 /// Splats this little before a body do not cover it, metres: ground that was measured a little too high leaves feet free.
@@ -43,6 +43,8 @@ pub(crate) struct Composer {
     off_m: Vec<f32>,
     /// Pixels of bodies that lose more than half of their light to splats, and the depth at which they do, metres.
     pub hiding: Vec<(usize, f32)>,
+    /// Ground as it is drawn, beside that of the scan.
+    pub ground: GroundLight,
 }
 
 /// Pixels from one to the next at which splats are compared with the geometry.
@@ -73,15 +75,20 @@ impl Composer {
         for (pixel, (rgb, (colour, light))) in rgb.as_chunks_mut::<3>().0.iter_mut().zip(seen).enumerate() {
             let factor = splats.exposure * self.lit.get(pixel).copied().unwrap_or(1.0);
             let covered = 1.0 - light;
-            let is_plain = factor == 1.0 && air.is_none() || covered <= 0.0;
-            let depth_m = || if picture.depth_m[pixel].is_finite() { picture.depth_m[pixel] } else { depth_m[pixel] };
-            let kept = air.filter(|_| !is_plain).map_or(1.0, |air| air.kept(pixel, picture.width, depth_m()));
-            for (k, (byte, own)) in rgb.iter_mut().zip(colour).enumerate() {
-                let own = if is_plain {
+            if let Some(air) = air.as_ref().filter(|_| covered > 0.0) {
+                let own_m = picture.depth_m[pixel];
+                let kept = air.kept(pixel, picture.width, if own_m.is_finite() { own_m } else { depth_m[pixel] });
+                for (k, (byte, own)) in rgb.iter_mut().zip(colour).enumerate() {
+                    let own = covered * curve.encoded(air.seen(factor * curve.decoded(own / covered), kept, k));
+                    *byte = (255.0 * own + light * f32::from(*byte) + 0.5) as u8;
+                }
+                continue;
+            }
+            for (byte, own) in rgb.iter_mut().zip(colour) {
+                let own = if factor == 1.0 || covered <= 0.0 {
                     *own
                 } else {
-                    let light = factor * curve.decoded(own / covered);
-                    covered * curve.encoded(air.map_or(light, |air| air.seen(light, kept, k)))
+                    covered * curve.encoded(factor * curve.decoded(own / covered))
                 };
                 *byte = (255.0 * own + light * f32::from(*byte) + 0.5) as u8;
             }

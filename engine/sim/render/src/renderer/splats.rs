@@ -27,6 +27,11 @@ impl Renderer {
         [self.composer.hiding.len(), bodies]
     }
 
+    /// How much brighter the ground of the scene's scan is than ground is drawn in the light of the last frame, stops; none of little ground.
+    pub fn scan_brighter_stops(&self) -> Option<f32> {
+        self.composer.ground.stops()
+    }
+
     /// Puts the scene's splats over the shaded faces of all that is no body. Depth and ids stay those of the geometry, but where splats
     /// hide a body.
     pub(super) fn draw_splats(&mut self, scene: &Scene, setup: &FrameSetup<'_>) {
