@@ -238,12 +238,10 @@ pub fn compared(
 ) -> (BTreeMap<String, String>, Vec<String>) {
     let mesh = scene.mesh().map(|mesh| {
         let remarks = mesh.remarks().iter().map(|remark| (remark.clone(), Some(format!("the mesh: {remark}"))));
-        ("mesh", [vec![matched(mesh), kept_away(mesh, flight), bright("mesh", seen)], remarks.collect()].concat())
+        ("mesh", [vec![matched(mesh), kept_away(mesh, flight)], remarks.collect()].concat())
     });
-    let splats = config
-        .splats
-        .as_ref()
-        .map(|_| ("splats", vec![lying(median(&seen.off_m)), hiding(seen.hidden), bright("splats", seen)]));
+    let splats =
+        config.splats.as_ref().map(|_| ("splats", vec![lying(median(&seen.off_m)), hiding(seen.hidden), bright(seen)]));
     let (mut notes, mut warnings) = (BTreeMap::new(), vec![]);
     for (name, found) in mesh.into_iter().chain(splats) {
         let words: Vec<String> = found.iter().map(|(note, _)| note.clone()).collect();
@@ -283,15 +281,15 @@ fn lying(off_m: Option<f32>) -> (String, Option<String>) {
     (note, is_elsewhere.then_some(warning))
 }
 
-/// The note about the light of a scan under a key beside that of bodies, and the warning where they are far apart.
-fn bright(key: &str, seen: &ScanTally) -> (String, Option<String>) {
+/// The note about the light of splats beside that of bodies, and the warning where they are far apart.
+fn bright(seen: &ScanTally) -> (String, Option<String>) {
     let Some(stops) = median(&seen.brighter_stops) else {
         return ("too little ground to compare its light".to_owned(), None);
     };
     let side = if stops < 0.0 { "darker" } else { "brighter" };
     let note = format!("its ground is {:.1} stops {side} than ground is drawn in this light", stops.abs());
     let warning = format!(
-        "{note}: bodies seem to stand in another light; make `{key}.exposure_ev` {:.1} {}, or give the weather of the scan",
+        "{note}: bodies seem to stand in another light; make `splats.exposure_ev` {:.1} {}, or give the weather of the scan",
         stops.abs(),
         if stops < 0.0 { "more" } else { "less" }
     );
@@ -333,10 +331,10 @@ mod tests {
         assert_eq!(hiding([0, 0]), ("splats hide 0.0 % of the pixels of bodies".to_owned(), None));
         assert_eq!(hiding([9, 100]).1, None);
         let seen = |stops: &[f32]| ScanTally { brighter_stops: stops.to_vec(), ..ScanTally::default() };
-        assert_eq!(bright("mesh", &seen(&[])).1, None);
-        let (note, warning) = bright("mesh", &seen(&[0.4, -9.0, 1.2]));
+        assert_eq!(bright(&seen(&[])).1, None);
+        let (note, warning) = bright(&seen(&[0.4, -9.0, 1.2]));
         assert!(note.contains("0.4 stops brighter") && warning.is_none(), "{note}");
-        let (_, warning) = bright("splats", &seen(&[-2.0; 3]));
+        let (_, warning) = bright(&seen(&[-2.0; 3]));
         assert!(warning.is_some_and(|it| it.contains("`splats.exposure_ev` 2.0 more")));
         assert!(hiding([11, 100]).1.is_some_and(|it| it.contains("11.0 %")));
     }

@@ -107,6 +107,44 @@ impl CodeCurve {
     }
 }
 
+/// Steps of a camera's tables.
+const CAMERA_STEPS: usize = 1024;
+
+/// Codes of a scan as a camera of other exposure and white balance takes them.
+#[derive(Clone, Debug, Default)]
+pub struct CameraCurve {
+    /// Factors of red, green and blue light.
+    pub factors: [f32; 3],
+    codes: [Vec<f32>; 3],
+}
+
+impl CameraCurve {
+    /// The tables of these factors; those at hand where they have them.
+    pub fn prepare(&mut self, factors: [f32; 3], curve: &CodeCurve) {
+        if self.factors == factors {
+            return;
+        }
+        self.factors = factors;
+        let code = |factor: f32, step: usize| curve.encoded(factor * curve.decoded(step as f32 / CAMERA_STEPS as f32));
+        self.codes = factors.map(|factor| (0..=CAMERA_STEPS).map(|step| code(factor, step)).collect());
+    }
+
+    /// Whether codes stay what they are.
+    pub fn is_plain(&self) -> bool {
+        self.factors == [1.0; 3]
+    }
+
+    /// Code of channel `k` for a code of the scan.
+    pub fn code(&self, k: usize, code: f32) -> f32 {
+        let place = code.clamp(0.0, 1.0) * CAMERA_STEPS as f32;
+        let step = (place as usize).min(CAMERA_STEPS - 1);
+        match self.codes[k].get(step..step + 2) {
+            Some([low, high]) => low + (high - low) * (place - step as f32),
+            _ => code,
+        }
+    }
+}
+
 /// Value of a table over 0 to 1.
 fn between(table: &[f32; STEPS + 1], at: f32) -> f32 {
     let place = at.clamp(0.0, 1.0) * STEPS as f32;
@@ -130,6 +168,18 @@ mod tests {
         lit_shares(&[255, 255, 255, 90, 90, 90, 0, 0, 0], &[188, 188, 188, 90, 90, 90, 9, 9, 9], &mut lit);
         assert!((lit[0] - 0.5).abs() < 5e-3, "{lit:?}");
         assert_eq!(lit[1..], [1.0, 1.0]);
+    }
+
+    #[test]
+    fn a_camera_of_half_the_exposure_takes_half_the_light() {
+        let (curve, mut camera) = (CodeCurve::default(), CameraCurve::default());
+        camera.prepare([1.0; 3], &curve);
+        assert!(camera.is_plain());
+        camera.prepare([0.5, 1.0, 2.0], &curve);
+        for code in [0.1, 0.4, 0.7] {
+            let light = [0, 1, 2].map(|k| curve.decoded(camera.code(k, code)) / curve.decoded(code));
+            assert!(light.iter().zip([0.5, 1.0, 2.0]).all(|(own, factor)| (own - factor).abs() < 0.01), "{light:?}");
+        }
     }
 
     #[test]

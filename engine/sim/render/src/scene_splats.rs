@@ -3,7 +3,7 @@
 use crate::scan_air::ScanAir;
 use cosfly_domain::Camera;
 use cosfly_frames::{DVec3, Pose, real};
-use cosfly_materials::scan_light::{CodeCurve, GroundLight};
+use cosfly_materials::scan_light::{CameraCurve, CodeCurve, GroundLight};
 use cosfly_splats::{Placement, SplatCloud, SplatRenderer, SplatView, SplatsConfig, SplatsProblem};
 
 /// Splats this little before a body do not cover it, metres: ground that was measured a little too high leaves feet free.
@@ -35,6 +35,7 @@ impl SceneSplats {
 pub(crate) struct Composer {
     renderer: SplatRenderer,
     curve: Option<Box<CodeCurve>>,
+    camera: CameraCurve,
     /// Depth of bodies by pixel, metres; infinite elsewhere.
     pub limit_m: Vec<f32>,
     /// Share of its light that each pixel has left in the shadow of bodies; empty: all of it.
@@ -56,7 +57,7 @@ impl Composer {
         &mut self,
         splats: &SceneSplats,
         (camera, pose): (&Camera, &Pose),
-        (is_parallel, air): (bool, Option<ScanAir>),
+        (is_parallel, (factors, air)): (bool, ([f32; 3], Option<ScanAir>)),
         (rgb, depth_m): (&mut [u8], &[f32]),
     ) {
         let view = SplatView::new(camera, pose, &splats.placement, splats.is_antialiased);
@@ -71,6 +72,8 @@ impl Composer {
         let hidden = hidden.filter(|(_, (own, limit))| own.is_finite() && limit.is_finite());
         self.hiding.extend(hidden.map(|(pixel, (own, limit))| (pixel, own.min(*limit))));
         let curve = self.curve.get_or_insert_with(|| Box::new(CodeCurve::default()));
+        self.camera.prepare(factors, curve);
+        let (camera, is_plain) = (&self.camera, self.camera.is_plain());
         let seen = picture.colour.iter().zip(&picture.transmittance);
         for (pixel, (rgb, (colour, light))) in rgb.as_chunks_mut::<3>().0.iter_mut().zip(seen).enumerate() {
             let factor = splats.exposure * self.lit.get(pixel).copied().unwrap_or(1.0);
@@ -79,16 +82,19 @@ impl Composer {
                 let own_m = picture.depth_m[pixel];
                 let kept = air.kept(pixel, picture.width, if own_m.is_finite() { own_m } else { depth_m[pixel] });
                 for (k, (byte, own)) in rgb.iter_mut().zip(colour).enumerate() {
-                    let own = covered * curve.encoded(air.seen(factor * curve.decoded(own / covered), kept, k));
+                    let own = factor * factors[k] * curve.decoded(own / covered);
+                    let own = covered * curve.encoded(air.seen(own, kept, k));
                     *byte = (255.0 * own + light * f32::from(*byte) + 0.5) as u8;
                 }
                 continue;
             }
-            for (byte, own) in rgb.iter_mut().zip(colour) {
-                let own = if factor == 1.0 || covered <= 0.0 {
+            for (k, (byte, own)) in rgb.iter_mut().zip(colour).enumerate() {
+                let own = if factor == 1.0 && is_plain || covered <= 0.0 {
                     *own
+                } else if factor == 1.0 {
+                    covered * camera.code(k, own / covered)
                 } else {
-                    covered * curve.encoded(factor * curve.decoded(own / covered))
+                    covered * curve.encoded(factor * factors[k] * curve.decoded(own / covered))
                 };
                 *byte = (255.0 * own + light * f32::from(*byte) + 0.5) as u8;
             }

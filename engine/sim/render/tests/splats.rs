@@ -128,6 +128,31 @@ fn shadows_of_bodies_fall_on_splats_and_exposure_is_a_key() {
 }
 
 #[test]
+fn the_camera_exposes_splats_and_bodies_alike() {
+    let pose = look_at(DVec3::new(-6.0, 0.0, 1.5));
+    let grey: Vec<Splat> = sheet(FEET + DVec3::new(1.5, 0.0, 1.0), [DVec3::Y * 0.1, DVec3::Z * 0.1])
+        .into_iter()
+        .map(|splat| Splat::plain(splat.middle, splat.spread, splat.turn, 0.99, [0.5; 3]))
+        .collect();
+    let scene = with_splats(&grey, &config());
+    let taken = |exposure_ev: f64, white_balance_k: f64| {
+        let mut renderer = Renderer::new(CAMERA);
+        renderer.set_optics(cosfly_domain::Optics { exposure_ev, white_balance_k, ..cosfly_domain::Optics::IDEAL });
+        renderer.render(&scene, &FrameSetup { pose, weather: &noon(), target: None, others: &[] }).images.clone()
+    };
+    let middle = 3 * (CAMERA.width * CAMERA.height / 2 + CAMERA.width / 2) as usize;
+    let at = |images: &FrameImages| [0, 1, 2].map(|k| f64::from(images.rgb[middle + k]));
+    let light = |code: f64| ((code / 255.0 + 0.055) / 1.055).powf(2.4);
+    let [plain, darker, warm] = [taken(0.0, 6500.0), taken(-1.0, 6500.0), taken(0.0, 4500.0)].map(|images| at(&images));
+    assert!((plain[0] - 128.0).abs() < 6.0, "{plain:?}");
+    assert!((light(darker[1]) / light(plain[1]) - 0.5).abs() < 0.03, "{plain:?} {darker:?}");
+    assert!(
+        warm[0] < plain[0] - 4.0 && warm[2] > plain[2] + 4.0 || warm[0] > plain[0] + 4.0 && warm[2] < plain[2] - 4.0,
+        "{warm:?}"
+    );
+}
+
+#[test]
 fn thin_splats_before_a_body_leave_it_its_labels() {
     let pose = look_at(DVec3::new(-6.0, 0.0, 1.5));
     let thin: Vec<Splat> = sheet(FEET + DVec3::new(-1.5, 0.0, 1.0), [DVec3::Y * 0.1, DVec3::Z * 0.1])

@@ -109,7 +109,7 @@ impl Renderer {
         let eye = Eye::new(&setup.pose);
         let Self { runs, faces, images, composer, screen, parallel, shader, .. } = self;
         let (faces, lit, screen) = (&*faces, &composer.lit, *screen);
-        let (air, depth_m) = (shader.scan_air(), &images.depth_m);
+        let (air, camera, depth_m) = (shader.scan_air(), shader.camera_light(), &images.depth_m);
         let curve = CodeCurve::default();
         let fill = |row: usize, runs: &[Run], rgb: &mut [u8]| {
             for run in runs {
@@ -124,7 +124,10 @@ impl Renderer {
                     let pixel = row * screen.width + column;
                     let factor = own.exposure * lit.get(pixel).copied().unwrap_or(1.0);
                     let kept = air.map_or(1.0, |air| air.kept(pixel, screen.width, depth_m[pixel]));
-                    let light = |k: usize| air.map_or(factor * look[k], |air| air.seen(factor * look[k], kept, k));
+                    let light = |k: usize| {
+                        let light = factor * camera[k] * look[k];
+                        air.map_or(light, |air| air.seen(light, kept, k))
+                    };
                     let bytes = [0, 1, 2].map(|k| (255.0 * curve.encoded(light(k)) + 0.5) as u8);
                     rgb[3 * column..3 * column + 3].copy_from_slice(&bytes);
                 }

@@ -58,8 +58,8 @@ impl Renderer {
                 .filter(|(_, limit)| limit.is_finite())
                 .for_each(|(lit, _)| *lit = 1.0);
         }
-        let air = shader.scan_air();
-        composer.compose(splats, (camera, &setup.pose), (*parallel, air), (&mut images.rgb, &images.depth_m));
+        let through = (shader.camera_light(), shader.scan_air());
+        composer.compose(splats, (camera, &setup.pose), (*parallel, through), (&mut images.rgb, &images.depth_m));
         // Edges within the geometry do not show.
         runs.join_surfaces(is_of_body);
         self.label_covered(&setup.pose);

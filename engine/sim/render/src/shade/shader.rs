@@ -54,6 +54,12 @@ impl Shader {
         self.setting.light.night > 0.0
     }
 
+    /// Factors of red, green and blue light by exposure and white balance of the camera.
+    pub(crate) fn camera_light(&self) -> [f32; 3] {
+        let Vec3 { x, y, z } = self.setting.tone.gains * self.setting.exposure;
+        [x, y, z]
+    }
+
     /// Haze before a scan in the frame at hand.
     pub(crate) fn scan_air(&self) -> Option<ScanAir> {
         let Setting { light, haze, tone, view, .. } = &self.setting;
