@@ -32,42 +32,44 @@ pub struct GroundLight {
     drawn: Vec<(usize, f32)>,
     /// How much brighter the scan is there, stops.
     stops: Vec<f32>,
+    /// Light of each code, once it is asked for.
+    light: Vec<f32>,
 }
 
 impl GroundLight {
+    /// Light of a pixel of three bytes, 0 to 3.
+    fn light_at(&self, rgb: &[u8], at: usize) -> f32 {
+        rgb.get(3 * at..3 * at + 3).map_or(0.0, |pixel| pixel.iter().map(|code| self.light[usize::from(*code)]).sum())
+    }
+
     /// Notes the ground as it is drawn without the scan.
     pub fn note(&mut self, rgb: &[u8], semantic: &[u8]) {
         let is_ground = |label: u8| GROUNDS.iter().any(|ground| ground.id() == label);
         let pixels = semantic.iter().enumerate().step_by(BETWEEN_LOOKS).filter(|(_, label)| is_ground(**label));
-        self.drawn.clear();
-        self.drawn.extend(pixels.map(|(at, _)| (at, light_at(rgb, at))));
+        if self.light.is_empty() {
+            let curve = CodeCurve::default();
+            self.light = (0..=u8::MAX).map(|code| curve.decoded(f32::from(code) / 255.0)).collect();
+        }
+        let drawn = pixels.map(|(at, _)| (at, self.light_at(rgb, at))).collect();
+        self.drawn = drawn;
     }
 
     /// Compares the ground with that of the scan, which now lies over it.
     pub fn compare(&mut self, rgb: &[u8]) {
         let stops = |(at, before): &(usize, f32)| {
-            let ratio = f64::from(light_at(rgb, *at) / before);
+            let ratio = f64::from(self.light_at(rgb, *at) / before);
             (real::ln(ratio) / real::ln(2.0)) as f32
         };
-        self.stops.clear();
-        self.stops.extend(self.drawn.iter().filter(|(_, before)| *before > 0.0).map(stops));
-        self.stops.retain(|stops| stops.is_finite());
-        self.stops.sort_unstable_by(f32::total_cmp);
+        let drawn = self.drawn.iter().filter(|(_, before)| *before > 0.0);
+        let mut found: Vec<f32> = drawn.map(stops).filter(|stops| stops.is_finite()).collect();
+        found.sort_unstable_by(f32::total_cmp);
+        self.stops = found;
     }
 
     /// How much brighter the scan's ground is than ground is drawn in the same light, stops, in the median; none of little ground.
     pub fn stops(&self) -> Option<f32> {
         self.stops.get(self.stops.len() / 2).copied().filter(|_| self.stops.len() >= ENOUGH)
     }
-}
-
-/// Light of a pixel of three bytes, 0 to 3.
-fn light_at(rgb: &[u8], at: usize) -> f32 {
-    let light = |code: &u8| {
-        let code = f64::from(*code) / 255.0;
-        if code <= 0.04045 { code / 12.92 } else { real::powf((code + 0.055) / 1.055, 2.4) }
-    };
-    rgb.get(3 * at..3 * at + 3).map_or(0.0, |pixel| pixel.iter().map(light).sum::<f64>() as f32)
 }
 
 /// Steps of the tables from light to code and back.

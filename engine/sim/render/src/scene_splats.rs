@@ -38,6 +38,8 @@ pub(crate) struct Composer {
     camera: CameraCurve,
     /// Depth of bodies by pixel, metres; infinite elsewhere.
     pub limit_m: Vec<f32>,
+    /// Pixels of bodies.
+    pub bodies: Vec<usize>,
     /// Share of its light that each pixel has left in the shadow of bodies; empty: all of it.
     pub lit: Vec<f32>,
     /// Distances between splats and geometry along the optical axis in the last picture, metres, of some pixels.
@@ -68,9 +70,9 @@ impl Composer {
         let both = both.filter(|((own, there), limit)| own.is_finite() && there.is_finite() && limit.is_infinite());
         self.off_m.extend(both.map(|((own, there), _)| (own - there).abs()));
         self.hiding.clear();
-        let hidden = picture.depth_m.iter().zip(&self.limit_m).enumerate();
-        let hidden = hidden.filter(|(_, (own, limit))| own.is_finite() && limit.is_finite());
-        self.hiding.extend(hidden.map(|(pixel, (own, limit))| (pixel, own.min(*limit))));
+        let depths = self.bodies.iter().map(|pixel| (*pixel, picture.depth_m[*pixel].min(self.limit_m[*pixel])));
+        let is_hidden = |(pixel, depth_m): &(usize, f32)| picture.depth_m[*pixel].is_finite() && *depth_m > 0.0;
+        self.hiding.extend(depths.filter(is_hidden));
         let curve = self.curve.get_or_insert_with(|| Box::new(CodeCurve::default()));
         self.camera.prepare(factors, curve);
         let (camera, is_plain) = (&self.camera, self.camera.is_plain());

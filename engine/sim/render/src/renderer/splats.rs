@@ -23,8 +23,7 @@ impl Renderer {
 
     /// Pixels of bodies that splats hide in the last frame, and all pixels of bodies.
     pub fn hidden_by_splats(&self) -> [usize; 2] {
-        let bodies = self.composer.limit_m.iter().filter(|limit_m| limit_m.is_finite()).count();
-        [self.composer.hiding.len(), bodies]
+        [self.composer.hiding.len(), self.composer.bodies.len()]
     }
 
     /// How much brighter the ground of the scene's scan is than ground is drawn in the light of the last frame, stops; none of little ground.
@@ -51,12 +50,10 @@ impl Renderer {
                 .zip(&images.depth_m)
                 .map(|(face, depth_m)| if is_of_body(*face) { depth_m - BEFORE_BODIES_M } else { f32::INFINITY }),
         );
-        if let Some(pixels) = composer.lit.get_mut(..composer.limit_m.len()) {
-            pixels
-                .iter_mut()
-                .zip(&composer.limit_m)
-                .filter(|(_, limit)| limit.is_finite())
-                .for_each(|(lit, _)| *lit = 1.0);
+        composer.bodies.clear();
+        composer.bodies.extend((0..composer.limit_m.len()).filter(|pixel| composer.limit_m[*pixel].is_finite()));
+        for pixel in &composer.bodies {
+            composer.lit.get_mut(*pixel).into_iter().for_each(|lit| *lit = 1.0);
         }
         let through = (shader.camera_light(), shader.scan_air());
         composer.compose(splats, (camera, &setup.pose), (*parallel, through), (&mut images.rgb, &images.depth_m));
