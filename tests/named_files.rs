@@ -17,6 +17,7 @@ const LINES: &[(&str, i32)] = &[
     ("dataset lint @", 4),
     ("dataset tag v1 @", 3),
     ("doctor @", 4),
+    ("doctor out/street --mesh @", 4),
     ("doctor out/street --texts @", 4),
     ("eval @", 4),
     ("eval out/street @ --kind waypoints", 4),

@@ -23,6 +23,17 @@ pub(crate) fn flow_px(point: &SeenPoint, camera: &Camera, here: &Pose, beside: &
     }
 }
 
+/// Whether a picture from a pose, with these depths, shows a point that stands.
+pub(crate) fn is_shown(point: &SeenPoint, camera: &Camera, beside: &Pose, depths_m: &[f32]) -> bool {
+    let depth_m = f64::from(point.depth_m).min(1e9);
+    let seen = camera.project(beside, point.camera_in_world + depth_m * point.ray_in_world);
+    let (width, height) = (f64::from(camera.width), f64::from(camera.height));
+    seen.is_some_and(|(u, v, ahead_m)| {
+        let is_inside = (0.0..width).contains(&u) && (0.0..height).contains(&v);
+        is_inside && f64::from(depths_m[v as usize * camera.width as usize + u as usize]) > 0.99 * ahead_m
+    })
+}
+
 /// Point of the surface at a pixel, assumed level.
 pub(crate) fn point(images: &FrameImages, camera: &Camera, pose: &Pose, at: usize) -> SeenPoint {
     let (column, row) = (at as u32 % images.width, at as u32 / images.width);

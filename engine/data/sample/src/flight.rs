@@ -1,6 +1,6 @@
 //! Sample flights: the track of a pedestrian, the poses of a drone, pictures by rays.
 
-use crate::drawn::{COMPANION, HEIGHT_M, RADIUS_M, ahead_of, flow_px, look, point};
+use crate::drawn::{COMPANION, HEIGHT_M, RADIUS_M, ahead_of, flow_px, is_shown, look, point};
 use crate::town::town;
 use cosfly_domain::channels::{ALL, ChannelSource, FlowTo, SeenPoint, disparity};
 use cosfly_domain::{
@@ -40,12 +40,13 @@ impl SampleFlight {
     }
 
     /// Draws all optional channels, as if every surface were level, nobody moved, the target were a box and the camera the left one
-    /// of a pair; the masks of flows are 0.
+    /// of a pair.
     pub fn draw_on_request(&mut self) {
         self.record.stereo = Some(StereoEye { base_line_m: BASE_LINE_M, is_right: false });
         let camera = &self.record.camera;
         let poses = &self.record.trajectory.poses_in_world;
         let views = &self.record.views;
+        let depths: Vec<Vec<f32>> = self.images.iter().map(|images| images.depth_m.clone()).collect();
         for (frame, (images, pose)) in self.images.iter_mut().zip(poses).enumerate() {
             let points: Vec<SeenPoint> = (0..images.depth_m.len()).map(|at| point(images, camera, pose, at)).collect();
             let on_request = ALL.iter().copied().filter(|channel| channel.is_on_request());
@@ -60,18 +61,26 @@ impl SampleFlight {
                 }
                 let pixels = image.bytes.chunks_exact_mut(image.channel.bytes_on_request());
                 let beside = match image.channel.source {
-                    ChannelSource::Flow(FlowTo::Previous) => frame.checked_sub(1),
+                    ChannelSource::Flow(FlowTo::Previous) | ChannelSource::FlowValid(FlowTo::Previous) => {
+                        frame.checked_sub(1)
+                    }
                     _ => Some(frame + 1),
                 };
-                let beside = beside.filter(|beside| *beside < FRAMES).map(|beside| &poses[beside]);
+                let beside = beside.filter(|beside| *beside < FRAMES).map(|at| (&poses[at], &depths[at]));
                 for (pixel, point) in pixels.zip(&points) {
                     image.channel.draw(point, pixel);
                     if *image.channel == disparity::CHANNEL {
                         let disparity_px = camera.focal_px() * BASE_LINE_M / f64::from(point.depth_m);
                         pixel.copy_from_slice(&(disparity_px as f32).to_le_bytes());
                     }
-                    if let (ChannelSource::Flow(_), Some(beside)) = (image.channel.source, beside) {
-                        pixel.copy_from_slice(&flow_px(point, camera, pose, beside).map(f32::to_le_bytes).concat());
+                    match (image.channel.source, beside) {
+                        (ChannelSource::Flow(_), Some((beside, _))) => {
+                            pixel.copy_from_slice(&flow_px(point, camera, pose, beside).map(f32::to_le_bytes).concat());
+                        }
+                        (ChannelSource::FlowValid(_), Some((beside, depths))) => {
+                            pixel[0] = is_shown(point, camera, beside, depths).into();
+                        }
+                        _ => {}
                     }
                 }
             }

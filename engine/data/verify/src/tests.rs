@@ -217,10 +217,13 @@ fn matched_depths_of_another_base_line_are_found() {
     let measured = |share: f32| {
         let mut flights = sample::flights();
         flights[0].draw_on_request();
+        // Of a pair with a base line of 0.3 m.
+        let scale = 0.3 * flights[0].record.camera.focal_px() as f32;
         let images = &mut flights[0].images[1];
         let image = images.on_request.iter_mut().find(|image| image.channel.name == "depth_stereo");
         let pixels = image.unwrap().bytes.as_chunks_mut::<4>().0.iter_mut();
-        pixels.zip(&images.depth_m).for_each(|(four, depth_m)| *four = (share * depth_m).to_le_bytes());
+        let matched = |depth_m: f32| 16.0 * scale / (16.0 * scale / (share * depth_m)).round();
+        pixels.zip(&images.depth_m).for_each(|(four, depth_m)| *four = matched(*depth_m).to_le_bytes());
         rules_of(&published(flights))
     };
     assert_eq!((measured(1.0), measured(0.2)), (vec![], vec!["verify-disparity"]));
