@@ -2,7 +2,7 @@
 """Trains a small network to follow a person from depth pictures, and compares it: first it imitates the expert where its own flights lead
 (`--warm`, a share of the time), then proximal policy optimisation (PPO) goes on from there.
 
-    pip install cosfly[gym,jax]
+    pip install ".[gym,jax]"      # in a clone
     python recipes/training/track_ppo.py recipes/suites/street.toml --minutes 15
 
 The network sees depth and the target's mask at 84 pixels, scaled down to 21 by their means, where in the picture the target was last seen and

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-pytest.importorskip("pettingzoo", reason="the package pettingzoo is not installed: pip install cosfly[pettingzoo]")
+pytest.importorskip("pettingzoo", reason="the package pettingzoo is not installed: pip install .[pettingzoo]")
 from pettingzoo.test import parallel_api_test, parallel_seed_test  # noqa: E402
 
 import cosfly  # noqa: E402

@@ -87,7 +87,7 @@ if not _TYPE_CHECKING:
 
 
 def parallel_env(recipe: _PathLike, num_drones: int = 2, **more: _Any) -> "_pettingzoo.ParallelTrack":
-    """Several drones behind one target, as an environment of pettingzoo (`pip install cosfly[pettingzoo]`)."""
+    """Several drones behind one target, as an environment of pettingzoo (`pip install ".[pettingzoo]"` in a clone)."""
     from .pettingzoo import ParallelTrack
 
     return ParallelTrack(recipe, num_drones, **more)
