@@ -170,6 +170,25 @@ fn every_link_and_page_of_the_book_exists() {
 }
 
 #[test]
+fn nothing_says_that_an_index_has_the_package() {
+    // None has it yet; whoever took the name there would be installed.
+    let told = concat!("pip install ", "cosfly");
+    let mut folders = ["book/src", "recipes", "engine/edge/python"].map(|it| repository_root().join(it)).to_vec();
+    let mut files = vec![repository_root().join("README.md")];
+    while let Some(folder) = folders.pop() {
+        for path in std::fs::read_dir(folder).expect("readable").map(|entry| entry.expect("entry").path()) {
+            if path.is_dir() { &mut folders } else { &mut files }.push(path);
+        }
+    }
+    for file in files {
+        // A wheel of a release is a file.
+        let Ok(text) = std::fs::read_to_string(&file) else { continue };
+        let named = text.match_indices(told).find(|(at, _)| !text[at + told.len()..].starts_with("-*.whl"));
+        assert!(named.is_none(), "{}: `{told}`; in a clone it is `pip install .`", file.display());
+    }
+}
+
+#[test]
 fn the_summary_lists_every_page_of_the_book_once() {
     let book = repository_root().join("book/src");
     let listed = links(&std::fs::read_to_string(book.join("SUMMARY.md")).expect("the book has a summary"));

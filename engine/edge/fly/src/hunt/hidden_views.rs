@@ -29,3 +29,39 @@ pub(super) fn hidden_views(episode: &Episode) -> f64 {
     }
     1.0 - seen / (f64::from(seconds + 1) * HEIGHTS.len() as f64 * f64::from(BEARINGS))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cosfly_domain::OrientedBox;
+    use cosfly_env::{FlightSite, Start};
+    use cosfly_frames::{Seed, TargetState, TargetTrack};
+    use std::sync::Arc;
+
+    /// A target that stands for 2 s, 20 m from a drone at a height of 20 m, among boxes.
+    fn among(boxes: Vec<OrientedBox>) -> f64 {
+        let state = TargetState { feet_in_world: 20.0 * DVec3::X, heading_rad: 0.0, speed_mps: 0.0 };
+        hidden_views(&Episode {
+            name: String::new(),
+            stratum: String::new(),
+            place: Arc::new(FlightSite::on_flat_ground(boxes)),
+            target: Arc::new(TargetTrack { dt_s: 0.5, height_m: 1.7, radius_m: 0.25, states: vec![state; 5] }),
+            followed: None,
+            looks: Seed([0; 32]),
+            weather: None,
+            others: Arc::default(),
+            start: Start { position_in_world: 20.0 * DVec3::Z, velocity_in_world: DVec3::ZERO },
+            seed: Seed([0; 32]),
+        })
+    }
+
+    #[test]
+    fn a_wall_hides_a_target_from_one_side_and_a_roof_from_all() {
+        assert_eq!(among(vec![]), 0.0);
+        // Five bearings of twelve lie behind the wall, to the left.
+        let wall = OrientedBox::from_corners(DVec3::new(-500.0, -3.0, 0.0), DVec3::new(500.0, -2.0, 60.0));
+        assert!((among(vec![wall]) - 5.0 / 12.0).abs() < 1e-9, "{}", among(vec![wall]));
+        let roof = OrientedBox::from_corners(DVec3::new(-500.0, -500.0, 3.0), DVec3::new(500.0, 500.0, 4.0));
+        assert!((among(vec![roof]) - 1.0).abs() < 1e-9);
+    }
+}

@@ -50,7 +50,8 @@ pub fn failed(row: &Row) -> bool {
 }
 
 /// What is known of each candidate before the policy flies it, numbers of 0..=1: for each scout its share of steps without the target and
-/// whether it failed, then the share of hidden views around the target, then the drawn values. `None` where the expert has no success. `progress` gets the numbers of finished and of all.
+/// whether it failed, then the share of hidden views around the target, then the drawn values. `None` where the expert has no success.
+/// `progress` gets the numbers of finished and of all.
 ///
 /// # Errors
 /// `fly-stopped`.
