@@ -110,6 +110,19 @@ fn a_mesh_is_drawn_as_it_is_and_its_licence_stands_on_the_card() {
     for words in ["of the mesh lie", "licence of the scan", "mesh.license", "mesh.faces_and_plates"] {
         assert!(printed.stderr.contains(words), "{words}: {}", printed.stderr);
     }
+    // Nights are shown where the weather lights the mesh, and nowhere else.
+    let night = "stages.frames.weathers=[\"ClearNight\"]";
+    let lit = "stages.frames.mesh={ source = \"scan.glb\", light = \"weather\" }";
+    let printed = cosfly(&["plan", "recipe.toml", "--set", night]).within(street.path()).run();
+    assert!(
+        printed.code == Some(3) && printed.stderr.contains("`ClearNight` is wet, dusty or dark"),
+        "{}",
+        printed.stderr
+    );
+    cosfly(&["run", "recipe.toml", "--set", lit, "--set", night]).within(street.path()).run_ok();
+    cosfly(&["verify", dataset.to_str().expect("UTF-8")]).within(street.path()).run_ok();
+    let card = std::fs::read_to_string(dataset.join("README.md")).expect("a card");
+    assert!(card.contains("its light is that of each picture's weather"), "{card}");
     let printed = cosfly(&["map", "inspect", "scan.glb"]).within(street.path()).run_ok();
     assert!(printed.stdout.contains("52 triangles, 2 pictures of up to 32 x 32 pixels"), "{}", printed.stdout);
 }
@@ -123,6 +136,7 @@ fn meshes_that_cannot_be_drawn_are_refused_before_anything_runs() {
         ("source = \"scan.glb\", unit_m = 0", 3, vec!["unit_m", "recipe.toml:"]),
         ("source = \"scan.glb\", up_axis = \"x\"", 3, vec!["up_axis", "recipe.toml:"]),
         ("source = \"scan.glb\", exposure_ev = 9", 3, vec!["exposure_ev", "recipe.toml:"]),
+        ("source = \"scan.glb\", light = \"moon\"", 3, vec!["`scan`", "`weather`", "recipe.toml:"]),
         ("source = \"scan.glb\", faces_and_plates = \"some\"", 3, vec!["removed", "readable", "recipe.toml:"]),
     ] {
         let street = meshed(keys);

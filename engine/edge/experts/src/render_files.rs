@@ -180,7 +180,9 @@ pub fn scan_notes(config: &RenderConfig) -> (Vec<String>, Vec<String>) {
         .into_iter()
         .any(|(name, range, _)| range.is_some() && dry_days::IN_THE_AIR.contains(&name));
     let air = if is_in_air { "; rain and haze are in the air alone: its ground stays dry" } else { "" };
+    let is_lit = config.mesh.as_ref().is_some_and(|mesh| !mesh.light.is_of_scan());
     for (key, what, license, faces) in mesh.into_iter().chain(splats) {
+        let sun = if is_lit && key == "mesh" { "; its light is that of each picture's weather" } else { "" };
         let stated = license.as_deref().map(str::trim).filter(|license| !license.is_empty());
         if stated.is_none() {
             warnings.push(format!("the licence of the scan is not stated: give it with `{key}.license`"));
@@ -195,7 +197,7 @@ pub fn scan_notes(config: &RenderConfig) -> (Vec<String>, Vec<String>) {
         let faces = faces.map_or("not stated", FacesAndPlates::words);
         notes.push(format!(
             "not invented: pictures show {what} of a real or modelled place, licence: {license}; faces and number plates: {faces}; whoever \
-             publishes them answers for these{air}"
+             publishes them answers for these{sun}{air}"
         ));
     }
     (notes, warnings)

@@ -1,7 +1,8 @@
 //! Hiding of shapes by others, told for whole shapes: the frame so far in tiles of pixels.
 
-use crate::visibility::Visibility;
-use cosfly_frames::simd_kernel;
+use crate::eye::Eye;
+use crate::visibility::{NEAR_M, Screen, Visibility, bounds};
+use cosfly_frames::{DVec3, simd_kernel};
 
 /// Size of a tile, pixels.
 const TILE: [usize; 2] = [32, 8];
@@ -39,6 +40,19 @@ impl Nearer {
             let tiles = &self.least[row * self.columns..(row + 1) * self.columns];
             tiles[columns.clone()].iter().all(|least| *least > limit)
         })
+    }
+
+    /// Whether a box of the world, by its centre and half its sides, metres, lies ahead and behind what is drawn.
+    pub fn hides_box(&self, (eye, screen): (&Eye, &Screen), center_in_world: DVec3, half: DVec3) -> bool {
+        let (mut nearest_m, mut points) = (f64::INFINITY, [[0.0; 2]; 8]);
+        for (number, point) in points.iter_mut().enumerate() {
+            let side = |axis: usize| if number >> axis & 1 == 1 { 1.0 } else { -1.0 };
+            let seen = eye.see(center_in_world + DVec3::new(side(0), side(1), side(2)) * half);
+            nearest_m = nearest_m.min(seen.x);
+            *point = screen.point(seen);
+        }
+        let (low, high) = bounds(&points);
+        nearest_m >= NEAR_M && self.hides(low, high, 1.0 / nearest_m)
     }
 }
 

@@ -76,6 +76,13 @@ impl Screen {
             center_v: 0.5 * f64::from(camera.height),
         }
     }
+
+    /// Column and row of a point in body axes (x along the optical axis, metres) that lies ahead, pixels.
+    #[inline]
+    pub fn point(&self, seen: DVec3) -> [f64; 2] {
+        let scale = self.focal_px / seen.x;
+        [self.center_u + seen.y * scale, self.center_v - seen.z * scale]
+    }
 }
 
 /// Nearest face at each pixel centre.
@@ -175,8 +182,7 @@ impl Visibility {
         }
         let mut points = [[0.0f64; 2]; 2 * MAX_CORNERS];
         for (point, corner) in points.iter_mut().zip(&clipped[..count]) {
-            let scale = screen.focal_px / corner.x;
-            *point = [screen.center_u + corner.y * scale, screen.center_v - corner.z * scale];
+            *point = screen.point(*corner);
         }
         self.draw_projected(&points[..count], &plane.lifted(bias), face);
     }
@@ -193,8 +199,7 @@ impl Visibility {
         let count = clip_near(corners, &mut clipped);
         let mut points = [[0.0f64; 2]; 2 * MAX_CORNERS];
         for (point, corner) in points.iter_mut().zip(&clipped[..count]) {
-            let scale = screen.focal_px / corner.x;
-            *point = [screen.center_u + corner.y * scale, screen.center_v - corner.z * scale];
+            *point = screen.point(*corner);
         }
         let Some(rows) = (if count < 3 { None } else { self.rows_of(&points[..count]) }) else { return };
         self.dirty_rows = (self.dirty_rows.0.min(rows.0), self.dirty_rows.1.max(rows.1));

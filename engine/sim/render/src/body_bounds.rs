@@ -31,8 +31,7 @@ impl Reach {
             if point.x < NEAR_M || !point.is_finite() {
                 return Self::EVERYWHERE;
             }
-            let scale = screen.focal_px / point.x;
-            let (u, v) = (screen.center_u + point.y * scale, screen.center_v - point.z * scale);
+            let [u, v] = screen.point(point);
             edges = [edges[0].min(u), edges[1].min(v), edges[2].max(u), edges[3].max(v)];
         }
         Self(edges)
@@ -168,9 +167,7 @@ mod tests {
             for corner in walker_triangles(&walker).into_iter().flatten() {
                 let tip = corner - to_sun * ((corner.z + 1.0) / to_sun.z);
                 for point in [corner, 0.5 * (corner + tip), tip] {
-                    let seen = eye.see(point);
-                    let scale = screen.focal_px / seen.x;
-                    let (u, v) = (screen.center_u + seen.y * scale, screen.center_v - seen.z * scale);
+                    let [u, v] = screen.point(eye.see(point));
                     assert!((left..right).contains(&u) && (top..bottom).contains(&v), "{step}: {u} {v}");
                     assert!(point.cmpge(shaded.low - 1e-9).all() && point.cmple(shaded.high + 1e-9).all(), "{step}");
                 }

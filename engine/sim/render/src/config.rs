@@ -236,7 +236,10 @@ impl RenderConfig {
             place.map_err(|it| problem(format!("splats.{}", it.key), it.message, it.hint))?;
         }
         let scan = self.mesh.as_ref().map(|_| "mesh").or(self.splats.as_ref().map(|_| "splats"));
-        let refused = scan.and_then(|key| dry_days::refusal(key, &self.weathers, &self.weather, self.season));
+        // Splats have no light but their own, whatever mesh is beside them.
+        let has_nights = self.splats.is_none() && self.mesh.as_ref().is_some_and(|mesh| !mesh.light.is_of_scan());
+        let refused =
+            scan.and_then(|key| dry_days::refusal((key, has_nights), &self.weathers, &self.weather, self.season));
         refused.map_or(Ok(()), |(path, message, hint)| Err(ConfigProblem { path, message, hint }))
     }
 

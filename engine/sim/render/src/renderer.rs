@@ -73,6 +73,8 @@ pub struct Renderer {
     optics: Optics,
     glass: Glass,
     composer: Composer,
+    /// Colours of the scene's mesh at each pixel: light as it was scanned, or shares that it reflects; empty without a mesh.
+    albedo: Vec<[f32; 3]>,
     /// Draws the frame without bodies, where splats need their shadows.
     bare: Option<Box<Renderer>>,
 }
@@ -115,6 +117,7 @@ impl Renderer {
             optics: Optics::IDEAL,
             glass: Glass::default(),
             composer: Composer::default(),
+            albedo: Vec::new(),
             bare: None,
         };
         renderer.set_optics(cosfly_optics::of_mean_drone());
@@ -242,13 +245,16 @@ impl Renderer {
             watch.lap(2);
         }
         self.view = target_view::NOT_IN_VIEW;
+        if parts == FrameParts::All {
+            self.find_albedo(scene, setup);
+        }
         if parts != FrameParts::Visibility {
             self.fill_channels(scene, parts == FrameParts::All);
             // Splats hide bodies: labels follow before they are counted.
-            if parts == FrameParts::All && (scene.mesh.is_some() || scene.splats.is_some()) {
+            if parts == FrameParts::All && scene.has_light_of_its_own() {
                 self.measure_shadows(scene, setup);
                 self.composer.ground.note(&self.images.rgb, &self.images.semantic);
-                self.draw_mesh(scene, setup);
+                self.draw_mesh(scene);
                 self.draw_splats(scene, setup);
                 self.composer.ground.compare(&self.images.rgb);
             }
@@ -300,6 +306,7 @@ impl Renderer {
         let eye = Eye::new(&setup.pose);
         self.find_faces(scene, setup, &eye, &mut Stopwatch::new(None));
         self.shader.prepare(scene, setup, &eye, &self.people, &self.nearest);
+        self.find_albedo(scene, setup);
         self.fill_channels(scene, true);
     }
 
@@ -321,7 +328,7 @@ impl Renderer {
     /// Depth and ids, and RGB before smoothing, band by band while a band's pixels are at hand.
     fn fill_channels(&mut self, scene: &Scene, shaded: bool) {
         let (level, shader) = (self.level, &self.shader);
-        let seen = Seen { scene, faces: &self.faces, people: &self.people };
+        let seen = Seen { scene, faces: &self.faces, people: &self.people, albedo: &self.albedo };
         for_each_band(self.parallel, &self.nearest.face, &mut self.images, &mut self.runs, |mut band| {
             band.resolve(level, seen.faces);
             if shaded {

@@ -186,6 +186,16 @@ impl Scene {
         Self { mesh, splats, ..self }
     }
 
+    /// The mesh that the weather of frames lights.
+    pub(crate) fn lit_mesh(&self) -> Option<&SceneMesh> {
+        self.mesh.as_deref().filter(|mesh| mesh.is_lit)
+    }
+
+    /// Whether a scan is drawn with the light in its colours.
+    pub(crate) fn has_light_of_its_own(&self) -> bool {
+        self.splats.is_some() || self.mesh.as_ref().is_some_and(|mesh| !mesh.is_lit)
+    }
+
     /// The textured mesh that it is drawn as.
     pub fn mesh(&self) -> Option<&SceneMesh> {
         self.mesh.as_deref()

@@ -18,6 +18,8 @@ pub struct SceneMesh {
     pub(crate) looks: Vec<MeshLook>,
     /// Factor of the mesh's light.
     pub(crate) exposure: f32,
+    /// Whether a frame's weather lights the mesh, in the place of the light in its colours.
+    pub(crate) is_lit: bool,
     known_share: f64,
 }
 
@@ -31,12 +33,7 @@ pub(crate) struct MeshCluster {
 impl SceneMesh {
     /// Takes over a mesh that was read for the place of its parameters; labels are those of the town in the same places.
     pub fn new(mut mesh: TexturedMesh, config: &MeshConfig, town: &Town) -> Self {
-        let [low, high] = mesh.bounds();
-        let cell_m = ((high - low).max_element() / f64::from(CELLS - 1)).max(1e-9);
-        mesh.triangles.sort_by_cached_key(|triangle| {
-            let middle = triangle.corners().into_iter().sum::<DVec3>() / 3.0;
-            z_order(((middle - low) / cell_m).to_array().map(|at| at as u32))
-        });
+        mesh.sort_by_place();
         let looks = looks(&mesh, town);
         let areas = || {
             mesh.triangles.iter().map(|triangle| {
@@ -56,7 +53,8 @@ impl SceneMesh {
         });
         let clusters = clusters.collect();
         let exposure = real::powf(2.0, config.exposure_ev) as f32;
-        Self { mesh, clusters, looks, exposure, known_share }
+        let is_lit = !config.light.is_of_scan();
+        Self { mesh, clusters, looks, exposure, is_lit, known_share }
     }
 
     /// Share of its area that lies on boxes or ground of the town.
@@ -91,33 +89,5 @@ impl SceneMesh {
     /// Number of triangles.
     pub fn triangles(&self) -> usize {
         self.mesh.triangles.len()
-    }
-}
-
-/// Cells along each axis of the order of triangles.
-const CELLS: u32 = 1 << 21;
-
-/// Interleaves the bits of a cell's three coordinates.
-fn z_order(cell: [u32; 3]) -> u64 {
-    let spread = |value: u32| {
-        let mut v = u64::from(value.min(CELLS - 1));
-        v = (v | (v << 32)) & 0x001f_0000_0000_ffff;
-        v = (v | (v << 16)) & 0x001f_0000_ff00_00ff;
-        v = (v | (v << 8)) & 0x100f_00f0_0f00_f00f;
-        v = (v | (v << 4)) & 0x10c3_0c30_c30c_30c3;
-        (v | (v << 2)) & 0x1249_2492_4924_9249
-    };
-    spread(cell[0]) | (spread(cell[1]) << 1) | (spread(cell[2]) << 2)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn bits_of_three_coordinates_are_interleaved() {
-        assert_eq!(z_order([1, 0, 0]), 1);
-        assert_eq!(z_order([0, 1, 3]), 0b10_0110);
-        assert_eq!(z_order([CELLS - 1; 3]), (1 << 63) - 1);
     }
 }

@@ -5,8 +5,8 @@ use cosfly_figures::{BodyShape, Walker};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_maps::{MapConfig, read_town};
-use cosfly_models::mesh::{MeshConfig, TexturedMesh};
-use cosfly_render::{FrameSetup, Renderer, Scene, SceneMesh, SceneScan};
+use cosfly_models::mesh::{MeshConfig, MeshLight, TexturedMesh};
+use cosfly_render::{FrameSetup, PictureLook, Renderer, Scene, SceneMesh, SceneScan};
 use std::sync::Arc;
 
 const CAMERA: Camera = Camera { width: 320, height: 180, horizontal_fov_rad: 1.2 };
@@ -31,6 +31,10 @@ fn example() -> Scene {
 
 fn noon(sun_azimuth_angle: f64) -> Weather {
     Weather { sun_azimuth_angle, ..cosfly_materials::presets::preset("ClearNoon").expect("a preset") }
+}
+
+fn night() -> Weather {
+    cosfly_materials::presets::preset("ClearNight").expect("a preset")
 }
 
 fn body() -> Walker {
@@ -155,4 +159,45 @@ fn haze_lies_before_far_walls_and_changes_nothing_but_colours() {
     let ((clear_spread, clear_mean), (haze_spread, haze_mean)) = (spread(&clear), spread(&haze));
     assert!(haze_spread < 0.85 * clear_spread, "{haze_spread} {clear_spread}");
     assert!(haze_mean > clear_mean, "{haze_mean} {clear_mean}");
+}
+
+#[test]
+fn a_mesh_is_lit_by_the_weather_where_somebody_asks() {
+    let (town, _) = read_town(TexturedMesh::EXAMPLE, &MapConfig::default(), Seed([5; 32])).expect("a town");
+    let lit = |exposure_ev: f64| {
+        let config = MeshConfig { exposure_ev, light: MeshLight::Weather, ..MeshConfig::new("scan.glb") };
+        let place = config.place(town.origin.offset_m).expect("a place");
+        let mesh = TexturedMesh::read(TexturedMesh::EXAMPLE, &[], &place).expect("a mesh");
+        let mesh = SceneMesh::new(mesh, &config, &town);
+        Scene::new(&town, Seed([1; 32])).with_scan(SceneScan { mesh: Some(Arc::new(mesh)), ..SceneScan::default() })
+    };
+    let pose = look_at(DVec3::new(8.0, 16.0, 5.0), DVec3::new(-5.0, -4.0, 3.0));
+    let weather = |sun_azimuth_angle| Weather { sun_altitude_angle: 35.0, ..noon(sun_azimuth_angle) };
+    let plain = draw(&example(), pose, None, &weather(90.0));
+    let walls: Vec<usize> =
+        off_edges(&plain).filter(|at| plain.semantic[*at] == SemanticLabel::Building.id()).collect();
+    let ground: Vec<usize> =
+        off_edges(&plain).filter(|at| (1..=2).contains(&plain.semantic[*at]) || plain.semantic[*at] == 25).collect();
+    assert!(walls.len() > 2000 && ground.len() > 2000, "{} {}", walls.len(), ground.len());
+    let sum = |images: &FrameImages, of: &[usize]| of.iter().map(|at| u64::from(images.rgb[3 * at + 1])).sum::<u64>();
+    // The camera looks from the south-east: +y and +x. Azimuth 90 degrees is a sun in the south.
+    let scene = lit(0.0);
+    let (south, north) = (draw(&scene, pose, None, &weather(90.0)), draw(&scene, pose, None, &weather(270.0)));
+    assert!(plain.depth_m == south.depth_m && plain.semantic == north.semantic && plain.instance == north.instance);
+    // From the south, walls that are seen are lit; from the north they are not, and the house's shadow falls before them.
+    assert!(2 * sum(&south, &walls) > 3 * sum(&north, &walls), "walls");
+    let green = |images: &FrameImages, at: usize| i32::from(images.rgb[3 * at + 1]);
+    let in_shadow = ground.iter().filter(|at| green(&south, **at) - green(&north, **at) > 40).count();
+    assert!(20 * in_shadow > ground.len(), "{in_shadow} of {} pixels of ground in the shadow", ground.len());
+    assert!(sum(&draw(&lit(-1.0), pose, None, &weather(90.0)), &walls) < sum(&south, &walls));
+    assert!(3 * sum(&draw(&scene, pose, None, &night()), &walls) < sum(&south, &walls), "a night is dark");
+    for level in Level::available() {
+        let mut renderer = Renderer::new(CAMERA);
+        renderer.set_level(level);
+        renderer.set_parallel(true);
+        assert_eq!(south, draw_by(&mut renderer, &scene, pose, None, &weather(90.0)), "{level:?}");
+        renderer.set_look(PictureLook::Simple);
+        let simple = draw_by(&mut renderer, &scene, pose, None, &weather(90.0));
+        assert!(sum(&simple, &walls) > sum(&north, &walls), "the simple look has light and no shadows");
+    }
 }

@@ -34,12 +34,34 @@ pub struct MeshConfig {
     #[serde(default)]
     #[schemars(range(min = -4, max = 4))]
     pub exposure_ev: f64,
+    /// Light of the mesh: `scan`, that in its colours (the default); `weather`, sun, sky and shadows of the picture's weather.
+    #[serde(default, skip_serializing_if = "MeshLight::is_of_scan")]
+    pub light: MeshLight,
     /// Licence of the scan and its owner, such as `CC BY 4.0, Ana Kos, https://example.org/street`: it stands on the dataset's card.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub license: Option<String>,
     /// Whether faces and number plates can be told in the scan: `none`, `removed` or `readable`; it stands on the dataset's card.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub faces_and_plates: Option<FacesAndPlates>,
+}
+
+/// Light in which a mesh is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MeshLight {
+    /// That in its colours, as it was scanned.
+    #[default]
+    Scan,
+    /// Sun, sky and shadows of the picture's weather: its colours are those of an even light, as of modelled cities and of scans whose
+    /// light was taken out.
+    Weather,
+}
+
+impl MeshLight {
+    /// Whether it is that of the scan.
+    pub fn is_of_scan(&self) -> bool {
+        *self == Self::Scan
+    }
 }
 
 /// Parameters that cannot be used.
@@ -80,6 +102,7 @@ impl MeshConfig {
             turn_deg: None,
             origin_m: None,
             exposure_ev: 0.0,
+            light: MeshLight::Scan,
             license: None,
             faces_and_plates: None,
         }

@@ -7,13 +7,14 @@ mod config;
 mod gltf;
 mod materials;
 mod obj;
+mod order;
 mod read;
 mod survey;
 mod texture;
 mod textured;
 mod used_texels;
 
-pub use config::{MeshConfig, MeshPlace, MeshProblem};
+pub use config::{MeshConfig, MeshLight, MeshPlace, MeshProblem};
 pub use materials::{beside, name_of, named_files};
 pub use read::NamedFile;
 pub use survey::MeshSurvey;

@@ -43,8 +43,7 @@ impl Renderer {
         self.seen_points.clear();
         self.seen_points.extend(cluster.points_in_world.iter().map(|point| {
             let seen = eye.see(*point);
-            let scale = screen.focal_px / seen.x;
-            (seen, [screen.center_u + seen.y * scale, screen.center_v - seen.z * scale])
+            (seen, screen.point(seen))
         }));
         if self.is_hidden_cluster() {
             return;

@@ -2,17 +2,17 @@
 
 use super::Renderer;
 use crate::faces::{DrawnFace, FaceSource, ground_lift};
-use crate::passes::ids::Run;
 use crate::scene::Scene;
-use crate::scene_mesh::{MeshCluster, SceneMesh};
+use crate::scene_mesh::SceneMesh;
 use crate::setup::FrameSetup;
 use cosfly_domain::SemanticLabel;
 use cosfly_frames::DVec3;
 use cosfly_materials::scan_light::CodeCurve;
 use cosfly_models::mesh::{MeshTriangle, TexturedMesh};
 use cosfly_raster::eye::Eye;
-use cosfly_raster::visibility::{NEAR_M, PlaneOnScreen, Screen, bounds};
+use cosfly_raster::visibility::{NEAR_M, PlaneOnScreen, Screen};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Share of its inverse depth with which ground is drawn behind a mesh: it shows through holes, and hides nothing. A power of two.
 pub(super) const BEHIND: f32 = 1.0 / 1_048_576.0;
@@ -36,29 +36,13 @@ impl Renderer {
                 next_look *= 2;
             }
             let cluster = &mesh.clusters[self.visible[position].1 as usize];
-            if position >= FIRST_CLUSTERS && self.is_hidden_box(cluster, eye) {
+            if position >= FIRST_CLUSTERS
+                && self.nearer.hides_box((eye, &self.screen), cluster.center_in_world, cluster.half_bounds_m)
+            {
                 continue;
             }
             cluster.triangles.clone().for_each(|number| self.draw_mesh_triangle(mesh, number, eye));
         }
-    }
-
-    /// Whether the bounds of a cluster lie behind what is drawn.
-    fn is_hidden_box(&self, cluster: &MeshCluster, eye: &Eye) -> bool {
-        let (mut nearest_m, mut points) = (f64::INFINITY, [[0.0; 2]; 8]);
-        for (number, point) in points.iter_mut().enumerate() {
-            let side = |axis: usize| if number >> axis & 1 == 1 { 1.0 } else { -1.0 };
-            let seen = eye.see(cluster.center_in_world + DVec3::new(side(0), side(1), side(2)) * cluster.half_bounds_m);
-            nearest_m = nearest_m.min(seen.x);
-            *point = self.screen_point(seen);
-        }
-        let (low, high) = bounds(&points);
-        nearest_m >= NEAR_M && self.nearer.hides(low, high, 1.0 / nearest_m)
-    }
-
-    fn screen_point(&self, seen: DVec3) -> [f64; 2] {
-        let scale = self.screen.focal_px / seen.x;
-        [self.screen.center_u + seen.y * scale, self.screen.center_v - seen.z * scale]
     }
 
     fn draw_mesh_triangle(&mut self, scene: &SceneMesh, number: usize, eye: &Eye) {
@@ -66,7 +50,7 @@ impl Renderer {
         let corners_in_world = triangle.corners();
         let corners = corners_in_world.map(|corner| eye.see(corner));
         let is_ahead = corners.iter().all(|corner| corner.x >= NEAR_M);
-        let points = corners.map(|corner| self.screen_point(corner));
+        let points = corners.map(|corner| self.screen.point(corner));
         // Most triangles of a scan are small: those between pixel centres are no faces.
         let rows = if is_ahead { self.nearest.rows_of(&points) } else { Some((0, 0)) };
         let Some(rows) = rows else { return };
@@ -103,46 +87,81 @@ impl Renderer {
         }
     }
 
-    /// The colours of the scene's mesh over its shaded faces, darker where bodies darken them.
-    pub(super) fn draw_mesh(&mut self, scene: &Scene, setup: &FrameSetup<'_>) {
+    /// The textures of the scene's mesh at each of its pixels.
+    pub(super) fn find_albedo(&mut self, scene: &Scene, setup: &FrameSetup<'_>) {
+        self.albedo.clear();
         let Some(own) = &scene.mesh else { return };
-        let eye = Eye::new(&setup.pose);
-        let Self { runs, faces, images, composer, screen, parallel, shader, .. } = self;
-        let (faces, lit, screen) = (&*faces, &composer.lit, *screen);
+        let Self { albedo, nearest, faces, screen, parallel, .. } = self;
+        albedo.resize(nearest.face.len(), [0.0; 3]);
+        let (eye, screen, faces) = (Eye::new(&setup.pose), *screen, &*faces);
+        for_each_row((*parallel, screen.width), &nearest.face, (albedo, 1), |row, seen, albedo| {
+            for (face, columns) in runs_of(seen) {
+                let Some((triangle, plane)) = mesh_face(faces, face) else { continue };
+                let surface = MeshSurface::new(&own.mesh.triangles[triangle as usize], (&screen, &eye), plane);
+                for column in columns {
+                    let [red, green, blue, _] = surface.look_at(&own.mesh, column as f64 + 0.5, row as f64 + 0.5);
+                    albedo[column] = [red, green, blue];
+                }
+            }
+        });
+    }
+
+    /// The colours of the scene's mesh over its shaded faces, darker where bodies darken them.
+    pub(super) fn draw_mesh(&mut self, scene: &Scene) {
+        let Some(own) = scene.mesh.as_ref().filter(|own| !own.is_lit) else { return };
+        let Self { nearest, faces, images, composer, screen, parallel, shader, albedo, .. } = self;
+        let (faces, lit, width) = (&*faces, &composer.lit, screen.width);
         let (air, camera, depth_m) = (shader.scan_air(), shader.camera_light(), &images.depth_m);
         let curve = CodeCurve::default();
-        let fill = |row: usize, runs: &[Run], rgb: &mut [u8]| {
-            for run in runs {
-                let Some(DrawnFace { source: FaceSource::Mesh { triangle }, plane, .. }) = faces.get(run.face as usize)
-                else {
-                    continue;
-                };
-                let surface = MeshSurface::new(&own.mesh.triangles[*triangle as usize], (&screen, &eye), *plane);
-                let first = run.start as usize % screen.width;
-                for column in first..first + run.length as usize {
-                    let look = surface.look_at(&own.mesh, column as f64 + 0.5, row as f64 + 0.5);
-                    let pixel = row * screen.width + column;
+        for_each_row((*parallel, width), &nearest.face, (&mut images.rgb, 3), |row, seen, rgb| {
+            for (_, columns) in runs_of(seen).filter(|(face, _)| mesh_face(faces, *face).is_some()) {
+                for column in columns {
+                    let pixel = row * width + column;
                     let factor = own.exposure * lit.get(pixel).copied().unwrap_or(1.0);
-                    let kept = air.map_or(1.0, |air| air.kept(pixel, screen.width, depth_m[pixel]));
+                    let kept = air.map_or(1.0, |air| air.kept(pixel, width, depth_m[pixel]));
                     let light = |k: usize| {
-                        let light = factor * camera[k] * look[k];
+                        let light = factor * camera[k] * albedo[pixel][k];
                         air.map_or(light, |air| air.seen(light, kept, k))
                     };
                     let bytes = [0, 1, 2].map(|k| (255.0 * curve.encoded(light(k)) + 0.5) as u8);
                     rgb[3 * column..3 * column + 3].copy_from_slice(&bytes);
                 }
             }
-        };
-        let rows: Vec<(usize, &[Run])> = runs.rows().enumerate().collect();
-        let width = 3 * screen.width.max(1);
-        if *parallel {
-            rows.into_par_iter()
-                .zip(images.rgb.par_chunks_mut(width))
-                .for_each(|((row, runs), rgb)| fill(row, runs, rgb));
-        } else {
-            rows.into_iter().zip(images.rgb.chunks_mut(width)).for_each(|((row, runs), rgb)| fill(row, runs, rgb));
-        }
+        });
     }
+}
+
+/// Triangle and plane of a drawn face of a mesh; none of others.
+fn mesh_face(faces: &[DrawnFace], face: u32) -> Option<(u32, PlaneOnScreen)> {
+    let face = faces.get(face as usize)?;
+    let FaceSource::Mesh { triangle } = face.source else { return None };
+    Some((triangle, face.plane))
+}
+
+/// Fills rows, each from the faces seen in it and with `per` values a pixel, on all threads or on this one.
+fn for_each_row<T: Send>(
+    (parallel, width): (bool, usize),
+    seen: &[u32],
+    (filled, per): (&mut [T], usize),
+    fill: impl Fn(usize, &[u32], &mut [T]) + Sync,
+) {
+    let width = width.max(1);
+    let fill = |(row, (seen, filled)): (usize, (&[u32], &mut [T]))| fill(row, seen, filled);
+    if parallel {
+        seen.par_chunks(width).zip(filled.par_chunks_mut(per * width)).enumerate().for_each(fill);
+    } else {
+        seen.chunks(width).zip(filled.chunks_mut(per * width)).enumerate().for_each(fill);
+    }
+}
+
+/// Faces of a row, each with the columns of it that follow one another.
+fn runs_of(row: &[u32]) -> impl Iterator<Item = (u32, Range<usize>)> {
+    let mut first = 0;
+    row.chunk_by(|left, right| left == right).map(move |run| {
+        let columns = first..first + run.len();
+        first = columns.end;
+        (run[0], columns)
+    })
 }
 
 /// [`ground_lift`] of a label by its id.

@@ -30,6 +30,8 @@ const PEOPLE: usize = 62;
 const CROWNS: usize = 61;
 /// Even surfaces of the simple look that are not ground.
 const EVEN: usize = 60;
+/// A mesh that the weather lights.
+const SCAN: usize = 59;
 const SHARED_GROUPS: usize = 64;
 const PAVEMENT: usize = SemanticLabel::SideWalks.id() as usize;
 /// No run follows.
@@ -42,6 +44,8 @@ pub(crate) struct Worker {
     crowns: Box<Crowns>,
     kerbs: Box<Kerbs>,
     colours: Box<[StageRow; 3]>,
+    /// What a lit mesh reflects at each pixel of the stage.
+    albedo: Box<[[f32; 3]; LANES]>,
     shared: Box<[Shared; GROUPS]>,
     blocks: Box<[Block; FOUR * GROUPS]>,
     /// Bytes of the blocks' pixels, in a row.
@@ -136,6 +140,7 @@ impl Worker {
             crowns: Box::new(Crowns::EMPTY),
             kerbs: Box::new(Kerbs::EMPTY),
             colours: Box::new([EMPTY_ROW; 3]),
+            albedo: Box::new([[0.0; 3]; LANES]),
             shared: Box::new([Shared::EMPTY; GROUPS]),
             blocks: Box::new([Block::EMPTY; FOUR * GROUPS]),
             developed: Box::new([0; LANES + WIDE]),
@@ -183,7 +188,7 @@ impl Worker {
                 foliage::note(seen, run, band.width, &mut crowns);
             }
             if group == last_group
-                && group < EVEN
+                && group < SCAN
                 && let Some(last) = self.runs.last_mut()
                 && !(run.start as usize).is_multiple_of(band.width)
                 && are_one_plane(seen, band, &last.run, run)
@@ -250,6 +255,11 @@ impl Worker {
                 if let Some(line) = &kerb {
                     put_kerb(setting.level, &mut self.kerbs, lanes / FOUR, length.div_ceil(FOUR), line);
                 }
+                if let (SCAN, Some(mesh)) = (group, seen.scene.lit_mesh()) {
+                    let pixels = seen.albedo[band.first_row * band.width + start..].iter().take(length);
+                    let albedo = pixels.zip(&mut self.albedo[lanes..]);
+                    albedo.for_each(|(colour, albedo)| *albedo = colour.map(|share| mesh.exposure * share));
+                }
                 lanes += length.next_multiple_of(FOUR);
                 start += length;
                 if lanes == LANES {
@@ -296,8 +306,8 @@ impl Worker {
             let piece = &self.pieces[*number];
             curve.bend(&setting.view, &mut self.stage, piece.lane / FOUR, piece.length.div_ceil(FOUR));
         }
-        let Self { stage, cloths, crowns, kerbs, colours, shared, blocks, near, .. } = &mut *self;
-        let staged = Staged { stage, cloths, crowns, kerbs, colours };
+        let Self { stage, cloths, crowns, kerbs, colours, albedo, shared, blocks, near, .. } = &mut *self;
+        let staged = Staged { stage, cloths, crowns, kerbs, colours, albedo };
         let blocks = (&mut shared[..groups], &mut blocks[..FOUR * groups]);
         match setting.look {
             PictureLook::Full => run_kernels(setting, seen, material, &staged, blocks, near),
@@ -422,7 +432,8 @@ fn group_of(setting: &Setting, seen: &Seen<'_>, face: u32) -> usize {
     let drawn = &seen.faces[face as usize];
     let is_simple = setting.look == PictureLook::Simple;
     match drawn.source {
-        FaceSource::Ground { .. } => usize::from(drawn.label).min(EVEN - 1),
+        FaceSource::Ground { .. } => usize::from(drawn.label).min(SCAN - 1),
+        FaceSource::Mesh { .. } if seen.scene.lit_mesh().is_some() => SCAN,
         FaceSource::Mesh { .. } | FaceSource::Splats => usize::from(UNDER_A_SCAN.id()),
         FaceSource::Figure { .. } if is_simple => EVEN,
         FaceSource::Figure { is_cloth: true, .. } => PEOPLE,

@@ -21,6 +21,7 @@ pub(super) fn material_of(setting: &Setting, seen: &Seen<'_>, face: u32) -> (Mat
             let props = &seen.scene.props;
             (Material::Skin(Painted::new(&props.triangles[triangle as usize].skin, &props.textures)), flat)
         }
+        FaceSource::Mesh { .. } if seen.scene.lit_mesh().is_some() => (Material::Scan, flat),
         FaceSource::Mesh { .. } | FaceSource::Splats => (Material::Ground(UNDER_A_SCAN), flat),
         FaceSource::Figure { is_cloth: true, .. } => (Material::Cloth, flat),
         FaceSource::Figure { look, .. } => {

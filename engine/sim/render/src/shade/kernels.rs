@@ -15,10 +15,11 @@ use cosfly_materials::facade::{facade, lift, roofs, tiles};
 use cosfly_materials::ground::ground;
 use cosfly_materials::kerbs::{Kerbs, stones};
 use cosfly_materials::lane_wear::worn;
-use cosfly_materials::lanes::{Block, PendingFours, Shared, StageRow, WIDE};
+use cosfly_materials::lanes::{Block, FOUR, LANES, PendingFours, Shared, StageRow, WIDE, set};
 use cosfly_materials::leaves::{Crowns, even_leaves, leaves, swell};
 use cosfly_materials::paving::pave;
 use cosfly_materials::thing_paint::things;
+use cosfly_materials::vector::Vec3;
 
 /// Sunlight on leaves is looked up this far towards the sun, metres.
 const OFF_CROWN_M: f32 = 1.5;
@@ -31,6 +32,18 @@ pub(super) struct Staged<'a> {
     pub kerbs: &'a Kerbs,
     /// Colours of even surfaces in the simple look.
     pub colours: &'a [StageRow; 3],
+    /// What a lit mesh reflects at each pixel.
+    pub albedo: &'a [[f32; 3]; LANES],
+}
+
+/// Puts what a lit mesh reflects into the blocks of the stage's pixels.
+fn reflect(blocks: &mut [Block], albedo: &[[f32; 3]; LANES]) {
+    let groups = blocks.as_chunks_mut::<FOUR>().0.iter_mut().zip(albedo.as_chunks::<{ FOUR * WIDE }>().0);
+    for (four, albedo) in groups {
+        for (at, [red, green, blue]) in albedo.iter().enumerate() {
+            set(&mut four[at % FOUR].albedo, at / FOUR, Vec3::new(*red, *green, *blue));
+        }
+    }
 }
 
 /// Draws a group in the full look; `near` are the people who may darken it.
@@ -38,7 +51,7 @@ pub(super) fn run_kernels(
     setting: &Setting,
     seen: &Seen<'_>,
     material: &Material,
-    &Staged { stage, cloths, crowns, kerbs, .. }: &Staged<'_>,
+    &Staged { stage, cloths, crowns, kerbs, albedo, .. }: &Staged<'_>,
     (shared, blocks): (&mut [Shared], &mut [Block]),
     near: &[u32],
 ) {
@@ -55,7 +68,7 @@ pub(super) fn run_kernels(
         swell(level, shared, crowns, setting.view.position, setting.view.pixel());
     }
     open(level, shared, grid.tables(), &grid.frame(), light.night > 0.0);
-    let is_shaded = matches!(material, Material::Ground(_)) && !near.is_empty();
+    let is_shaded = matches!(material, Material::Ground(_) | Material::Scan) && !near.is_empty();
     if is_shaded {
         blocks.iter_mut().for_each(|block| block.openness = [1.0; WIDE]);
         near.iter().for_each(|one| contact(level, shared, blocks, &seen.people.members[*one as usize].walker));
@@ -93,6 +106,7 @@ pub(super) fn run_kernels(
                 stones(level, shared, blocks, kerbs, seen.scene.kerb_tone, noise);
             }
         }
+        Material::Scan => reflect(blocks, albedo),
         Material::Facade(look, face) => facade(level, shared, blocks, look, face, light, noise),
         Material::Roof(roof) => roofs(level, shared, blocks, roof, light, noise),
         Material::Tiles(slope) => tiles(level, shared, blocks, slope, noise),
@@ -133,7 +147,7 @@ pub(super) fn run_kernels(
 pub(super) fn run_simple_kernels(
     setting: &Setting,
     material: &Material,
-    &Staged { stage, crowns, colours, .. }: &Staged<'_>,
+    &Staged { stage, crowns, colours, albedo, .. }: &Staged<'_>,
     (shared, blocks): (&mut [Shared], &mut [Block]),
 ) {
     let (level, light, tone) = (setting.level, &setting.light, &setting.tone);
@@ -154,6 +168,12 @@ pub(super) fn run_simple_kernels(
             swell(level, shared, crowns, setting.view.position, setting.view.pixel());
             even_leaves(level, blocks, crowns, setting.view.position);
             lighting::develop_bent(level, shared, blocks, light, tone);
+        }
+        Material::Scan => {
+            reflect(blocks, albedo);
+            blocks.iter_mut().for_each(|block| block.sunlight = [1.0; WIDE]);
+            let kinds = Kinds { glows: false, shiny: false, shaded: false };
+            lighting::develop(level, shared, blocks, light, tone, kinds);
         }
         Material::Ground(label) => simple::even(level, shared, blocks, simple::ground_colour(*label), tone),
         Material::Even => simple::even_fours(level, shared, blocks, colours, tone),

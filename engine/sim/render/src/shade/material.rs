@@ -19,6 +19,8 @@ use cosfly_materials::vector::Vec3;
 pub(super) enum Material {
     Sky,
     Ground(SemanticLabel),
+    /// A mesh that the weather lights: what it reflects is known at each pixel.
+    Scan,
     Facade(Facade, BoxFace),
     Roof(Roof),
     Tiles(Tiles),
@@ -162,7 +164,7 @@ impl Material {
                 }
                 _ => matt,
             },
-            Self::Sky | Self::Even | Self::Cloth | Self::Leaves | Self::Skin(_) | Self::Tiles(_) => matt,
+            Self::Scan | Self::Sky | Self::Even | Self::Cloth | Self::Leaves | Self::Skin(_) | Self::Tiles(_) => matt,
         }
     }
 }

@@ -36,6 +36,8 @@ pub(crate) struct Seen<'a> {
     pub scene: &'a Scene,
     pub faces: &'a [DrawnFace],
     pub people: &'a People,
+    /// Colours of the scene's mesh at each pixel.
+    pub albedo: &'a [[f32; 3]],
 }
 
 impl Setting {

@@ -8,6 +8,7 @@ use super::shadow_region::Region;
 use super::sun_tiles::{Sun, Tile, TilePlace};
 use super::sunlight::{LEAVES, PACKED_ROWS, SOLID, SUMMARY_SIDE, TILE, Texels, WINDOW_TILES, measure_tile, pack_tile};
 use crate::scene::Scene;
+use crate::scene_mesh::SceneMesh;
 use cosfly_domain::ObstacleKind;
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3};
@@ -80,6 +81,9 @@ impl Painter {
     /// Draws everything that throws shadows into a part of the canvas; whether there is anything.
     fn draw_part(&mut self, scene: &Scene, sun: &Sun, frame: &Frame, part: Region) -> bool {
         self.canvas.clear_part(part.first, part.end);
+        if let Some(mesh) = scene.lit_mesh() {
+            return self.draw_mesh(mesh, frame, sun.to_sun, part);
+        }
         let mut anything = false;
         let least_m = LEAST_HALF_WIDTH_TEXELS * frame.texels_m.x;
         for b in &scene.boxes {
@@ -102,6 +106,29 @@ impl Painter {
             }
         }
         anything | self.draw_props(scene, frame, sun.to_sun, part)
+    }
+
+    /// Triangles of a lit mesh throw shadows in the place of boxes and models, those of cut-outs as leaves do.
+    fn draw_mesh(&mut self, own: &SceneMesh, frame: &Frame, to_sun: DVec3, part: Region) -> bool {
+        let mut anything = false;
+        for cluster in &own.clusters {
+            if frame.misses(&part, cluster.center_in_world, cluster.half_bounds_m) {
+                continue;
+            }
+            anything = true;
+            for triangle in &own.mesh.triangles[cluster.triangles.clone()] {
+                let corners = triangle.corners();
+                let [a, b, c] = corners;
+                let normal = (b - a).cross(c - a).normalize_or_zero();
+                let facing = normal.dot(to_sun);
+                if facing.abs() > 1e-6 {
+                    let is_cut = own.mesh.materials[triangle.material as usize].least_alpha.is_some();
+                    let class = if is_cut { LEAVES } else { SOLID };
+                    draw(&mut self.canvas, (frame, part), to_sun, normal * facing.signum(), &corners, class);
+                }
+            }
+        }
+        anything
     }
 
     /// Both sides of a model's triangles throw shadows.
