@@ -1,7 +1,7 @@
 """Pictures of splats against the published equations, by a reference of another hand (numpy, double precision).
 
     cargo build --profile ci -p cosfly-splats --example draw_splats
-    python tests/outside/check_splats.py target/ci/examples/draw_splats scene.ply scan.spz room.splat
+    python tests/outside/check_splats.py target/ci/examples/draw_splats --files scene.ply scan.spz room.splat
 
 Without files, scenes are made up. Each file (`.ply` of the reference trainer, `.splat`, `.spz` of version 2 or 3) is read by this script alone and
 drawn from several places: Kerbl et al. 2023 (equations 3 to 6, harmonics, no early end), and with Mip-Splatting's opacities (Yu et al. 2024).

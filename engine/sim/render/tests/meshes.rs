@@ -1,6 +1,6 @@
 //! Textured meshes in pictures: baked light, cut-outs, bodies and their shadows.
 
-use cosfly_domain::{Camera, FrameImages, SemanticLabel, TARGET_INSTANCE, Weather};
+use cosfly_domain::{Camera, FrameImages, Optics, SemanticLabel, TARGET_INSTANCE, Weather};
 use cosfly_figures::{BodyShape, Walker};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
@@ -59,7 +59,7 @@ fn draw_by(
     target: Option<Walker>,
     weather: &Weather,
 ) -> FrameImages {
-    renderer.set_optics(cosfly_domain::Optics::IDEAL);
+    renderer.set_optics(Optics::IDEAL);
     renderer.render(scene, &FrameSetup { pose, weather, target, others: &[] }).images.clone()
 }
 
@@ -200,4 +200,27 @@ fn a_mesh_is_lit_by_the_weather_where_somebody_asks() {
         let simple = draw_by(&mut renderer, &scene, pose, None, &weather(90.0));
         assert!(sum(&simple, &walls) > sum(&north, &walls), "the simple look has light and no shadows");
     }
+}
+
+#[test]
+fn the_camera_exposes_a_mesh_as_it_does_bodies() {
+    let pose = look_at(DVec3::new(8.0, 16.0, 5.0), DVec3::new(-5.0, -4.0, 3.0));
+    let taken = |exposure_ev: f64, white_balance_k: f64| {
+        let mut renderer = Renderer::new(CAMERA);
+        renderer.set_optics(Optics { exposure_ev, white_balance_k, ..Optics::IDEAL });
+        let setup = FrameSetup { pose, weather: &noon(200.0), target: None, others: &[] };
+        renderer.render(&example(), &setup).images.clone()
+    };
+    let [plain, darker, warm] = [(0.0, 6500.0), (-1.0, 6500.0), (0.0, 4500.0)].map(|(ev, kelvin)| taken(ev, kelvin));
+    let walls: Vec<usize> =
+        off_edges(&plain).filter(|at| plain.semantic[*at] == SemanticLabel::Building.id()).collect();
+    let light = |code: u8| cosfly_frames::real::powf((f64::from(code) / 255.0 + 0.055) / 1.055, 2.4);
+    let sum = |images: &FrameImages, k: usize| walls.iter().map(|at| light(images.rgb[3 * at + k])).sum::<f64>();
+    for k in 0..3 {
+        let share = sum(&darker, k) / sum(&plain, k);
+        assert!((share - 0.5).abs() < 0.03, "channel {k}: {share}");
+    }
+    let gains = [0, 1, 2].map(|k| sum(&warm, k) / sum(&plain, k));
+    let turned = (gains[0] - 1.0) * (gains[2] - 1.0);
+    assert!(turned < -1e-3, "red and blue go apart: {gains:?}");
 }
