@@ -237,10 +237,12 @@ A line is a frame: path of the picture, facts of tables `trajectories` and `fram
 mod tests {
     use crate::laws::{export_with, files, published};
     use crate::source::Choice;
-    use cosfly_read::PublishedDataset;
+    use cosfly_read::{PublishedDataset, read};
     use cosfly_sample as sample;
+    use cosfly_schema::tables::TargetLosses;
     use cosfly_schema::{DatasetConfig, EncodingConfig};
     use serde_json::{Map, Value};
+    use std::collections::BTreeSet;
     use std::path::Path;
 
     #[test]
@@ -269,6 +271,50 @@ mod tests {
         assert!(
             rows[0]["reason"].as_str().unwrap().contains("lost just now: it is smaller than a pixel. It comes back")
         );
+    }
+
+    #[test]
+    fn losses_are_the_rows_of_the_table() {
+        let home = tempfile::tempdir().unwrap();
+        let mut flights = sample::flights();
+        // One loss at the start, one until the end.
+        for (flight, frames) in flights.iter_mut().zip([vec![0, 1], vec![3, 4]]) {
+            for frame in frames {
+                let view = &mut flight.record.views[frame];
+                (view.visible_box, view.pixels, view.occluder_instance, view.visible_by_pixels) = (None, 0, 7, 0.0);
+            }
+        }
+        let (data, out) = (home.path().join("data"), home.path().join("out"));
+        sample::write_flights(&data, &DatasetConfig::default(), EncodingConfig::default(), flights).unwrap();
+        let dataset = PublishedDataset::open(&data).unwrap();
+        export_with(&dataset, "grounding", Map::new(), &Choice::default(), &out).unwrap();
+        let (mut told, mut rows_of_table) = (BTreeSet::new(), BTreeSet::new());
+        for bytes in files(&out).into_iter().filter(|(path, _)| path.extension().is_some_and(|it| it == "jsonl")) {
+            for line in std::str::from_utf8(&bytes.1).unwrap().lines() {
+                let row: Value = serde_json::from_str(line).unwrap();
+                let loss = &row["loss"];
+                if let Some(start) = loss["start_frame"].as_u64() {
+                    let id = row["trajectory_id"].as_str().unwrap().to_owned();
+                    let numbers =
+                        [start, loss["end_frame"].as_u64().unwrap(), loss["cause_instance"].as_u64().unwrap()];
+                    told.insert((id, numbers, !loss["comes_back"].is_null()));
+                }
+            }
+        }
+        for (_, path) in dataset.files("target_losses").unwrap() {
+            read(&path, &mut |rows| {
+                for row in 0..rows.len() {
+                    let numbers = [TargetLosses::start_frame, TargetLosses::end_frame, TargetLosses::cause_instance]
+                        .map(|column| u64::from(rows.get(column, row).unwrap()));
+                    let id: String = rows.get(TargetLosses::trajectory_id, row)?;
+                    rows_of_table.insert((id, numbers, rows.get(TargetLosses::reacquired, row)?));
+                }
+                Ok(())
+            })
+            .unwrap();
+        }
+        assert!(told.len() > 1, "{told:?}");
+        assert_eq!(told, rows_of_table);
     }
 
     #[test]
