@@ -256,11 +256,13 @@ impl Parts {
         }
         let stand = plants::stand(&shape.faces, low.z);
         self.tally.stands += usize::from(!stand.is_empty());
+        let mut boxes = vec![];
         for solid in stand {
             self.tally.coarse.add(&solid);
-            for (kind, shape) in solid.boxes.into_iter().filter_map(|shape| plants::of_height(shape, low.z)) {
-                self.push(kind, object_id, [shape]);
-            }
+            boxes.extend(solid.boxes);
+        }
+        for (kind, shape) in plants::grown(boxes, low.z) {
+            self.push(kind, object_id, [shape]);
         }
         Ok(())
     }
@@ -278,8 +280,8 @@ impl Parts {
         }
         if stands > 0 {
             notes.push(format!(
-                "{stands} stands of plants (`PlantCover`) are plain dark boxes from 2 m up: the file does not say where their trees stand; \
-                 single trees need `SolitaryVegetationObject`"
+                "{stands} stands of plants (`PlantCover`) are bushes, and trees where they rise to points: trunks and crowns of up to 4 m are \
+                 invented; trees whose place is known need `SolitaryVegetationObject`"
             ));
         }
         let coarseness = terrain::add_terrain(&mut self.ground.meshes, &self.obstacles, terrain::USUAL_MARGIN_M)?;
