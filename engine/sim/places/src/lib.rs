@@ -9,6 +9,7 @@ pub mod grid;
 pub mod kinds;
 mod lot;
 mod net;
+mod prune;
 mod relief;
 mod site;
 pub mod streets;

@@ -1,6 +1,7 @@
 //! A kind of place: its name, the numbers that it takes, and the function that builds it.
 
 use crate::net::write::write_opendrive;
+use crate::prune::prune;
 use crate::site::Site;
 use cosfly_frames::Seed;
 use std::collections::BTreeMap;
@@ -75,7 +76,8 @@ impl PlaceKind {
 
     /// OpenDRIVE 1.6 text of a place; the same settings and seed give the same bytes.
     pub fn open_drive(&self, settings: &PlaceSettings, seed: u64) -> String {
-        let site = (self.build)(settings, Seed::of_item(seed, "place", self.name));
+        let mut site = (self.build)(settings, Seed::of_item(seed, "place", self.name));
+        prune(&mut site.things);
         let comment = format!(
             "A place made by cosfly ({}, seed {seed}); no survey, nobody else's data. Lengths in metres. Our own userData: \
              crown_radius and crown_base of trees, whose radius is the trunk's; roof and roof_rise, above the height of the \

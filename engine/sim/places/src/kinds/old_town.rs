@@ -26,6 +26,8 @@ pub const KIND: PlaceKind = PlaceKind {
 };
 
 const STOREY_M: f64 = 2.9;
+/// Narrowest nave of the church, metres.
+const NAVE_M: f64 = 7.0;
 /// Lanes go so far onto other lanes and pavements, metres.
 const ONTO_M: f64 = 0.4;
 /// Blocks between lanes are split until they are smaller, square metres.
@@ -101,11 +103,12 @@ impl OldTown {
         let center = site.middle();
         let mut order: Vec<&Vec<DVec2>> = self.cells.iter().filter(|cell| cell.len() >= 3).collect();
         order.sort_by(|a, b| middle(a).distance(center).total_cmp(&middle(b).distance(center)));
+        let church = (1..order.len()).find_map(|number| Some((number, church_plan(site, order[number])?)));
         for (number, cell) in order.into_iter().enumerate() {
             let mut stream = seed.child("cell", number as u64).stream("houses");
-            match number {
-                0 => market(site, cell, &mut stream),
-                1 => self.church(site, cell, &mut stream),
+            match &church {
+                _ if number == 0 => market(site, cell, &mut stream),
+                Some((own, plan)) if *own == number => put_church(site, plan, &mut stream),
                 _ => self.houses(site, inset(cell, 0.75), &mut stream),
             }
         }
@@ -136,29 +139,31 @@ impl OldTown {
             site.build_beside(&land, eaves_m, (10.0 * roof_m).round() / 10.0);
         }
     }
+}
 
-    /// A church where the land holds one, with a tower at the end that has room; houses elsewhere.
-    fn church(&self, site: &mut Site, cell: &[DVec2], stream: &mut RandomStream) {
-        let land = inset(cell, 0.75);
-        let holds = |plan: &[DVec2]| plan.iter().all(|corner| contains(&land, *corner));
-        let (axis, size_m) = long_axis(cell);
-        let (width_m, length_m) = (0.34 * size_m.y, 0.5 * size_m.x);
-        let front = middle(cell) - 0.5 * width_m * axis.perp();
-        let nave = rectangle(front, axis, DVec2::new(length_m, width_m));
-        if !holds(&nave) {
-            return self.houses(site, land, stream);
-        }
-        let eaves_m = 11.0 + stream.uniform(0.0, 3.0).round();
-        site.build_beside(&nave, eaves_m, 0.5 * width_m);
-        for end in [-1.0, 1.0] {
-            let at = front + end * (0.5 * length_m + 3.1) * axis + (0.5 * width_m - 3.0) * axis.perp();
-            let tower = rectangle(at, axis, DVec2::new(6.0, 6.0));
-            if holds(&tower) {
-                site.build_beside(&tower, eaves_m + 18.0, 6.0);
-                break;
-            }
-        }
-    }
+/// Nave, tower and the rise of the nave's roof, metres.
+type Church = ([Vec<DVec2>; 2], f64);
+
+/// A church with a tower at an end of its nave, where the land holds both.
+fn church_plan(site: &Site, cell: &[DVec2]) -> Option<Church> {
+    let land = inset(cell, 0.75);
+    let holds = |plan: &[DVec2]| plan.iter().all(|corner| contains(&land, *corner)) && site.is_clear(plan, 0.3);
+    let (axis, size_m) = long_axis(cell);
+    let (width_m, length_m) = (0.34 * size_m.y, 0.5 * size_m.x);
+    let front = middle(cell) - 0.5 * width_m * axis.perp();
+    let nave = rectangle(front, axis, DVec2::new(length_m, width_m));
+    let tower = |end: f64| {
+        let at = front + end * (0.5 * length_m + 3.1) * axis + (0.5 * width_m - 3.0) * axis.perp();
+        rectangle(at, axis, DVec2::new(6.0, 6.0))
+    };
+    let tower = [-1.0, 1.0].map(tower).into_iter().find(|tower| holds(tower))?;
+    (width_m >= NAVE_M && holds(&nave)).then_some(([nave, tower], 0.5 * width_m))
+}
+
+fn put_church(site: &mut Site, ([nave, tower], roof_m): &Church, stream: &mut RandomStream) {
+    let eaves_m = 11.0 + stream.uniform(0.0, 3.0).round();
+    site.build_beside(nave, eaves_m, *roof_m);
+    site.build_beside(tower, eaves_m + 18.0, 6.0);
 }
 
 /// A square to walk on with a fountain, rows of stalls and some trees.

@@ -27,7 +27,7 @@ pub fn write_opendrive(
     [name, comment]: [&str; 2],
 ) -> String {
     let mut text = String::new();
-    let [low, high] = network.bounds(MARGIN_M);
+    let [low, high] = reach(network.bounds(MARGIN_M), things);
     line(&mut text, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>");
     line(&mut text, &format!("<!-- {comment} -->"));
     line(&mut text, "<OpenDRIVE>");
@@ -51,6 +51,12 @@ pub fn write_opendrive(
     }
     line(&mut text, "</OpenDRIVE>");
     text
+}
+
+/// Bounds that hold the middles of all upright things, too: woods and gardens may reach beyond the margin.
+fn reach([low, high]: [DVec2; 2], things: &[GeneratedThing]) -> [DVec2; 2] {
+    let upright = things.iter().filter(|thing| !matches!(thing.footprint, Footprint::Polygon(_)));
+    upright.map(|thing| thing.footprint.center()).fold([low, high], |[low, high], at| [low.min(at), high.max(at)])
 }
 
 fn begin_road(text: &mut String, [name, id, junction]: [&str; 3], length_m: f64) {
