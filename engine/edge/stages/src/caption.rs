@@ -76,7 +76,7 @@ impl StageKind for Caption {
             canonical[TEACHER] = parameters::without(parameters::canonical(&teacher), TeacherConfig::NOT_IN_KEY);
         }
         let properties = StageProperties {
-            version: 16,
+            version: 17,
             parameters: canonical,
             inputs,
             items: ItemRule::PerInput("trajectories"),

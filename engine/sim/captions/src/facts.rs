@@ -14,8 +14,10 @@ pub(crate) const LEAST_STOP_S: f64 = 1.0;
 const LEAST_WALK_M: f64 = 1.0;
 /// Slower than this nobody walks, m/s.
 const SLOWEST_WALK_MPS: f64 = 0.5;
-/// People who are faster while they move run, and runners at any pace, m/s.
-pub(crate) const RUNNING_MPS: f64 = 2.2;
+/// People who are faster while they move run, m/s.
+const RUNNING_MPS: f64 = 2.2;
+/// Runners run from a lower pace on, m/s; those who keep pace with people who walk walk.
+const JOGGING_MPS: f64 = 1.8;
 /// Way at the start and at the end of a walk that gives their directions, metres.
 const END_M: f64 = 3.0;
 /// The first turn comes soon in the first fifth of the time and the first seconds; late in the second half, after some seconds.
@@ -120,7 +122,7 @@ impl Facts {
         Self { is_runner: kind == BodyKind::Runner, ..self }
     }
 
-    /// Whether the target runs: nobody walks as fast, or it is a runner.
+    /// Whether the target runs: nobody walks as fast, or it is a runner whom nobody holds up.
     pub fn runs(&self) -> bool {
         runs(self.is_runner, self.walking_speed_mps)
     }
@@ -202,7 +204,12 @@ pub fn facts(trajectory: &Trajectory) -> Facts {
 
 /// Whether somebody with a speed runs.
 pub(crate) fn runs(is_runner: bool, speed_mps: f64) -> bool {
-    speed_mps > if is_runner { STANDING_MPS } else { RUNNING_MPS }
+    speed_mps > running_mps(is_runner)
+}
+
+/// Pace from which somebody runs, m/s.
+pub(crate) fn running_mps(is_runner: bool) -> f64 {
+    if is_runner { JOGGING_MPS } else { RUNNING_MPS }
 }
 
 /// Whether a way in a time is a walk, be it a short one.

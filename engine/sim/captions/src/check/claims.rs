@@ -3,7 +3,7 @@
 use super::clothes::clothes_mismatch;
 use super::slot::{Slot, SlotMismatch};
 use super::turns::{is_list_of, may_have};
-use crate::facts::{Facts, LATE_S, LATE_SHARE, LEAST_STOP_S, LeftOut, RUNNING_MPS, SOON_S, SOON_SHARE};
+use crate::facts::{Facts, LATE_S, LATE_SHARE, LEAST_STOP_S, LeftOut, SOON_S, SOON_SHARE, running_mps};
 use crate::precision::{
     DISTANCE_STEP_M, PITCH_STEP_DEG, SPEED_STEP_MPS, STOP_STEP_S, duration_step_s, is_step, way_step_m,
 };
@@ -101,10 +101,12 @@ impl Checker<'_> {
             Claim::TurnsSoon | Claim::TurnsLate => self.time_of_turn(*claim == Claim::TurnsSoon),
             Claim::Stays => self.expect(!facts.walks, Slot::Walking, "stands", "walks"),
             Claim::Walks => {
-                let is_slow = !facts.is_runner && facts.walking_speed_mps < RUNNING_MPS + GAIT_MPS;
+                let is_slow = facts.walking_speed_mps < running_mps(facts.is_runner) + GAIT_MPS;
                 self.gait("walks", facts.walks && is_slow);
             }
-            Claim::Runs => self.gait("runs", facts.runs() || facts.walking_speed_mps > RUNNING_MPS - GAIT_MPS),
+            Claim::Runs => {
+                self.gait("runs", facts.walking_speed_mps > running_mps(facts.is_runner) - GAIT_MPS);
+            }
             Claim::Unknown(ref words) => self.expect(false, Slot::Number, words, "nothing of the kind"),
             Claim::Direction(_) | Claim::Turn(_) => {}
             _ => self.measure(claim),

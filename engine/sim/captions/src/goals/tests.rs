@@ -209,15 +209,23 @@ fn what_is_said_depends_on_times_and_not_on_numbers_of_frames() {
 }
 
 #[test]
-fn a_slow_runner_runs() {
-    let (states, town) = (states(), town());
-    let texts = |kind: BodyKind| -> String {
-        let flight = CourseData { kind, ..flight(&states) };
+fn a_runner_runs_unless_company_slows_it_to_a_walk() {
+    let (slow, town) = (states(), town());
+    let faster = |state: TargetState| TargetState {
+        feet_in_world: 2.0 * state.feet_in_world,
+        speed_mps: 2.0 * state.speed_mps,
+        ..state
+    };
+    let fast: Vec<TargetState> = slow.iter().copied().map(faster).collect();
+    let texts = |kind: BodyKind, states: &[TargetState]| -> String {
+        let flight = CourseData { kind, ..flight(states) };
         let course = Course::of(&flight, &town);
         let all = (0..20).flat_map(|seed| goals(&course, &Seed::of_item(seed, "goals", "a")));
         all.flat_map(|goal| goal.lines).collect::<Vec<_>>().join("\n")
     };
-    let (walks, runs) = (texts(BodyKind::Pedestrian), texts(BodyKind::Runner));
-    assert!(walks.contains("walk") && !walks.contains("run") && !walks.contains('跑'));
+    for walks in [texts(BodyKind::Pedestrian, &slow), texts(BodyKind::Runner, &slow)] {
+        assert!(walks.contains("walk") && !walks.contains(" run") && !walks.contains("跑"), "{walks}");
+    }
+    let runs = texts(BodyKind::Runner, &fast);
     assert!(!runs.contains("walk") && runs.contains("run") && runs.contains('跑'));
 }

@@ -230,13 +230,13 @@ mod tests {
     }
 
     #[test]
-    fn runners_run_at_any_pace_and_others_beyond_that_of_a_walk() {
+    fn runners_run_from_a_lower_pace_on_than_others() {
         let runs = |kind: BodyKind, speed_mps: f64| {
             let target = SeenPerson { speed_mps, ..person(10.0, 0.0, 0.0, Colour::Black) };
             sight(&WindowView { kind, ..view(target, vec![]) }, &town()).runs
         };
-        let paces_mps = [0.0, 1.9, 2.5];
-        assert_eq!(paces_mps.map(|it| runs(BodyKind::Pedestrian, it)), [false, false, true]);
-        assert_eq!(paces_mps.map(|it| runs(BodyKind::Runner, it)), [false, true, true]);
+        let paces_mps = [0.0, 0.9, 1.9, 2.5];
+        assert_eq!(paces_mps.map(|it| runs(BodyKind::Pedestrian, it)), [false, false, false, true]);
+        assert_eq!(paces_mps.map(|it| runs(BodyKind::Runner, it)), [false, false, true, true]);
     }
 }
