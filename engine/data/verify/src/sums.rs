@@ -40,8 +40,7 @@ pub fn check_row(flight: &PlacedFlight, report: &mut VerifyReport) {
     if said != is_wide {
         find("verify-camera", format!("`camera_depth_is_along_rays` is {said}; the lens gives {is_wide}"));
     }
-    let kind = BodyKind::ON_THE_GROUND.iter().copied().find(|kind| flight.target_kind.as_deref() == Some(kind.name()));
-    if let Some(message) = kind.and_then(|kind| size_problem(kind, flight.target_height_m, None)) {
+    if let Some(message) = target_kind(flight).and_then(|kind| size_problem(kind, flight.target_height_m, None)) {
         find("verify-kind", message);
     }
     if (figures.role == Role::Perturbed) != flight.expert_id.is_some() {
@@ -118,7 +117,8 @@ fn turning_deg_s(flight: &PlacedFlight, frames: &[PlacedFrame]) -> [f64; 2] {
 }
 
 /// Mean visibility by rays and by pixels over the frames in which the whole body is large and in the image; `None`
-/// when there are too few.
+/// when there are too few. The points of the planner's rays lie within an upright person; of wider bodies, dense rays
+/// tell how much is seen.
 fn compared_visibility(flight: &PlacedFlight, frames: &[PlacedFrame]) -> Option<[f64; 2]> {
     let (width, height) = (f64::from(flight.camera.width), f64::from(flight.camera.height));
     let is_compared = |frame: &&PlacedFrame| {
@@ -127,11 +127,23 @@ fn compared_visibility(flight: &PlacedFlight, frames: &[PlacedFrame]) -> Option<
             is_whole && right - left + bottom - top >= LARGE_BOX_PX
         })
     };
+    let by_rays: fn(&PlacedFrame) -> f64 = match target_kind(flight) {
+        Some(kind) if !is_upright(kind) => |frame| frame.visible_by_dense_rays.unwrap_or(frame.visible_by_rays),
+        _ => |frame| frame.visible_by_rays,
+    };
     let compared: Vec<&PlacedFrame> = frames.iter().filter(is_compared).collect();
     let mean =
         |share: fn(&PlacedFrame) -> f64| compared.iter().map(|frame| share(frame)).sum::<f64>() / compared.len() as f64;
-    (compared.len() >= ENOUGH_FRAMES)
-        .then(|| [mean(|frame| frame.visible_by_rays), mean(|frame| frame.visible_by_pixels)])
+    (compared.len() >= ENOUGH_FRAMES).then(|| [mean(by_rays), mean(|frame| frame.visible_by_pixels)])
+}
+
+fn target_kind(flight: &PlacedFlight) -> Option<BodyKind> {
+    BodyKind::ON_THE_GROUND.iter().copied().find(|kind| flight.target_kind.as_deref() == Some(kind.name()))
+}
+
+/// Whether bodies of a kind are people on foot without anything beside them.
+fn is_upright(kind: BodyKind) -> bool {
+    kind.row().walking.is_some_and(|walking| walking.outline_m.is_none())
 }
 
 /// Whether two numbers are the same but for rounding; never with NaN.

@@ -1,7 +1,7 @@
 //! A sound dataset passes; every kind of damage is found and named.
 
 use crate::{Options, VerifyReport, files, frames, rows, tables, verify};
-use cosfly_domain::{BodyInSpace, BodyKind, KeyPoint, Shown};
+use cosfly_domain::{BodyInSpace, BodyKind, BodyPlan, Followed, KeyPoint, PixelBox, Shown};
 use cosfly_frames::DVec3;
 use cosfly_sample as sample;
 use cosfly_sample::SampleFlight;
@@ -55,6 +55,26 @@ fn shares_by_rays_and_pixels_that_differ_are_listed_with_a_reason_and_are_no_pro
     assert!(report.is_sound() && (report.labels, report.gaps) == (20, 1), "{:#?}", report.findings);
     let gap = report.label_gaps[0].to_string();
     assert!(gap.contains("frame 2: ") && gap.contains(&format!("{differing:.2} visible by rays")), "{gap}");
+}
+
+#[test]
+fn a_wide_body_that_is_hidden_beside_its_middle_is_judged_by_dense_rays() {
+    let rules = |kind: Option<BodyKind>, dense: f64| {
+        let mut flights = sample::flights();
+        let record = &mut flights[0].record;
+        let plan = kind.map(|kind| BodyPlan { kind, ..record.others[0].plan.clone() });
+        record.followed = plan.map(|plan| Followed { traffic: "street".into(), number: 0, plan });
+        record.trajectory.visibility.iter_mut().for_each(|share| *share = 1.0);
+        for view in &mut record.views {
+            (view.visible_by_rays, view.visible_by_pixels) = (1.0, 0.6);
+            view.full_box = Some(PixelBox { u_min: 8, v_min: 8, u_max: 24, v_max: 40 });
+        }
+        record.visible_by_dense_rays.iter_mut().for_each(|share| *share = Some(dense));
+        rules_of(&published(flights)).contains(&"verify-visibility")
+    };
+    assert!(rules(None, 0.6), "points of an upright person tell what is seen of it");
+    assert!(!rules(Some(BodyKind::Van), 0.6));
+    assert!(rules(Some(BodyKind::Van), 1.0));
 }
 
 #[test]
