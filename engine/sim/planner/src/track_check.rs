@@ -34,9 +34,30 @@ pub fn check_track(track: &TargetTrack, speed_limit_mps: f64) -> Result<(), Plan
         if speed > speed_limit_mps {
             let frame = i + 1;
             return Err(PlanError::Request(format!(
-                "frame {frame}: the target moves at {speed:.1} m/s; the drone's limit is {speed_limit_mps} m/s"
+                "frame {frame}: the target moves at {} m/s; the drone's limit is {speed_limit_mps} m/s",
+                above(speed, speed_limit_mps)
             )));
         }
     }
     Ok(())
+}
+
+/// A number above a limit, with as many decimals as show it, one at least.
+fn above(value: f64, limit: f64) -> String {
+    let shows = |text: &String| text.parse().is_ok_and(|shown: f64| shown > limit);
+    (1..10).map(|decimals| format!("{value:.decimals$}")).find(shows).unwrap_or_else(|| value.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::above;
+
+    #[test]
+    fn a_number_above_a_limit_shows_it() {
+        for (value, text) in
+            [(14.23, "14.2"), (12.04, "12.04"), (12.000_31, "12.0003"), (12.000_000_000_000_002, "12.000000000000002")]
+        {
+            assert_eq!(above(value, 12.0), text);
+        }
+    }
 }

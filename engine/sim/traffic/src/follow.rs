@@ -2,6 +2,7 @@
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::{BodyKind, Traffic};
+use cosfly_frames::TargetState;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -21,11 +22,15 @@ pub struct Follow {
     /// Least distance that a followed body covers, metres. Default 20.
     #[schemars(range(min = 0.0, max = 100_000.0))]
     pub min_length_m: f64,
+    /// Speed that no followed body exceeds, m/s, such as `limits.speed_mps` of the stage `plan`: faster ones are rejected there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.1, max = 100.0))]
+    pub max_speed_mps: Option<f64>,
 }
 
 impl Default for Follow {
     fn default() -> Self {
-        Self { count: 4, named: vec![], kinds: vec![BodyKind::Pedestrian], min_length_m: 20.0 }
+        Self { count: 4, named: vec![], kinds: vec![BodyKind::Pedestrian], min_length_m: 20.0, max_speed_mps: None }
     }
 }
 
@@ -62,6 +67,7 @@ impl Follow {
                     && !named.contains(number)
                     && is_there(number)
                     && body.length_m() >= self.min_length_m
+                    && self.max_speed_mps.is_none_or(|limit_mps| fastest_mps(&body.states, traffic.dt_s) <= limit_mps)
             };
             numbers().filter(may).collect()
         };
@@ -73,15 +79,24 @@ impl Follow {
 
     fn too_few(&self, eligible: usize) -> Box<Diagnostic> {
         let kinds: Vec<String> = self.kinds.iter().map(|kind| format!("`{}`", kind.name())).collect();
+        let slow = self.max_speed_mps.map_or_else(String::new, |limit| format!(" at no more than {limit} m/s"));
         let message = format!(
-            "`follow.count` is {}, but the bodies of the kinds {} that are there all the time and cover {} m are {eligible}",
+            "`follow.count` is {}, but the bodies of the kinds {} that are there all the time and cover {} m{slow} are {eligible}",
             self.count,
             kinds.join(", "),
             self.min_length_m
         );
-        Diagnostic::new("traffic-few", Fault::Recipe, message)
-            .hint("follow fewer, move more people or vehicles, name further kinds, or lower `follow.min_length_m`")
+        let raise = if self.max_speed_mps.is_some() { ", or raise `follow.max_speed_mps`" } else { "" };
+        Diagnostic::new("traffic-few", Fault::Recipe, message).hint(format!(
+            "follow fewer, move more people or vehicles, name further kinds, or lower `follow.min_length_m`{raise}"
+        ))
     }
+}
+
+/// Largest speed between two frames, m/s, as planners judge it.
+fn fastest_mps(states: &[TargetState], dt_s: f64) -> f64 {
+    let steps_m = states.windows(2).map(|pair| pair[1].feet_in_world.distance(pair[0].feet_in_world));
+    steps_m.fold(0.0, f64::max) / dt_s
 }
 
 /// The refusal of a name in `named`.
@@ -105,4 +120,33 @@ fn nobody(name: &str, traffic: &Traffic) -> Box<Diagnostic> {
         _ => format!("there all the time, among others: {}", names.join(", ")),
     };
     Diagnostic::new("traffic-few", Fault::Recipe, message).hint(hint)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cosfly_domain::{Body, BodyPlan};
+    use cosfly_frames::{DVec3, Seed};
+
+    fn car(speed_mps: f64) -> Body {
+        let state = |frame: u32| TargetState {
+            feet_in_world: DVec3::new(0.5 * speed_mps * f64::from(frame), 0.0, 0.0),
+            heading_rad: 0.0,
+            speed_mps,
+        };
+        let size_m = DVec3::new(4.5, 1.8, 1.5);
+        let plan = BodyPlan { source: String::new(), kind: BodyKind::Car, size_m, looks: Seed([1; 32]), group: None };
+        Body { plan, first_frame: 0, states: (0..20).map(state).collect() }
+    }
+
+    #[test]
+    fn bodies_above_the_greatest_speed_are_not_followed() {
+        let bodies = [8.0, 14.2, 11.9, 12.1].map(car).to_vec();
+        let traffic = Traffic { dt_s: 0.5, frames: 20, bodies, ..Traffic::default() };
+        let follow = |max_speed_mps| Follow { kinds: vec![BodyKind::Car], max_speed_mps, ..Follow::default() };
+        assert_eq!(follow(None).eligible(&traffic), Ok(vec![0, 1, 2, 3]));
+        assert_eq!(follow(Some(12.0)).eligible(&traffic), Ok(vec![0, 2]));
+        let refusal = follow(Some(12.0)).number(&traffic, 2).unwrap_err();
+        assert!(refusal.message.contains("at no more than 12 m/s are 2"), "{}", refusal.message);
+    }
 }

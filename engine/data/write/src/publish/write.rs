@@ -102,7 +102,14 @@ fn check_sensors(extras: &[ExtraSummary]) -> Result<()> {
 fn nothing_to_publish(rejections: &[Rejection]) -> Box<Diagnostic> {
     let message = format!("there is no flight to publish: {} of {0} items were rejected", rejections.len());
     let reasons = rejections.iter().take(3).map(|it| format!("`{}/{}`: {}", it.stage, it.trajectory_id, it.reason));
-    reasons.fold(Diagnostic::new("dataset-empty", Fault::Input, message), Diagnostic::because)
+    let refusal = reasons.fold(Diagnostic::new("dataset-empty", Fault::Input, message), Diagnostic::because);
+    if !rejections.iter().any(|it| it.reason.contains("the drone's limit")) {
+        return refusal;
+    }
+    refusal.hint(
+        "targets are faster than the drone: `follow.max_speed_mps` of the stage `traffic` leaves them out, or raise \
+         `limits.speed_mps` of the stage `plan`",
+    )
 }
 
 /// `files.parquet`, then `croissant.json`, which names its hash, then `SHA256SUMS` over both.
