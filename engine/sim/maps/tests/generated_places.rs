@@ -223,6 +223,20 @@ fn courts_are_bare_where_the_kind_says_so_and_lawn_elsewhere() {
     assert!(warnings[0].contains("`open_ground` must be `lawn`"), "{warnings:?}");
 }
 
+#[test]
+fn values_of_a_wrong_type_are_refused_in_plain_words() {
+    let refusal = |keys: &str| {
+        let text = format!(r#"{{ "format": "cosfly-generated/1", "place": "villas", {keys} }}"#);
+        read_town(text.as_bytes(), &MapConfig::default(), Seed([1; 32])).unwrap_err().message
+    };
+    for seed in ["-1", "1.5"] {
+        let message = refusal(&format!("\"seed\": {seed}"));
+        assert!(message.ends_with("expected a whole number from 0 on"), "{message}");
+    }
+    let message = refusal(r#""seed": 1, "town": { "pools": "many" }"#);
+    assert!(message.ends_with("expected a number"), "{message}");
+}
+
 fn page(name: &str) -> String {
     std::fs::read_to_string(format!("{}/../../../book/src/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
 }

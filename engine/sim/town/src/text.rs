@@ -45,12 +45,24 @@ pub fn refused_json(error: &serde_json::Error, text: &str) -> MapError {
     // The parser's own text ends with the position, which the place says better.
     let message = error.to_string();
     let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(before, _)| before);
+    let message = in_plain_words(message);
     let hint = if error.is_eof() {
         "the file seems to be cut off: fetch or export it again"
     } else {
         "the book's pages on maps describe the format"
     };
     MapError::new(message).at(lines.place(at..(at + 1).min(text.len()).max(at), String::new())).hint(hint)
+}
+
+/// A parser's words without the names of types of numbers.
+fn in_plain_words(message: &str) -> String {
+    let plain = [
+        ("expected u64", "expected a whole number from 0 on"),
+        ("expected u32", "expected a whole number from 0 on"),
+        ("expected usize", "expected a whole number from 0 on"),
+        ("expected f64", "expected a number"),
+    ];
+    plain.iter().fold(message.to_owned(), |text, (jargon, words)| text.replace(jargon, words))
 }
 
 /// Starts of the lines, so that a position becomes a line and a column in little time.
