@@ -224,7 +224,7 @@ fn a_runner_runs_unless_company_slows_it_to_a_walk() {
         all.flat_map(|goal| goal.lines).collect::<Vec<_>>().join("\n")
     };
     for walks in [texts(BodyKind::Pedestrian, &slow), texts(BodyKind::Runner, &slow)] {
-        assert!(walks.contains("walk") && !walks.contains(" run") && !walks.contains("跑"), "{walks}");
+        assert!(walks.contains("walk") && !walks.contains(" run") && !walks.contains('跑'), "{walks}");
     }
     let runs = texts(BodyKind::Runner, &fast);
     assert!(!runs.contains("walk") && runs.contains("run") && runs.contains('跑'));
