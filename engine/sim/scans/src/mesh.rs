@@ -20,6 +20,7 @@ pub use options::MeshOptions;
 pub use parts::{Part, PartBuilder};
 
 use crate::open_ground::open_ground;
+use cosfly_diagnose::counted;
 use cosfly_domain::{Obstacle, Synthetic, Town};
 use cosfly_town::MapError;
 use cosfly_town::mesh::MeshBuilder;
@@ -142,7 +143,7 @@ fn solids_and_surfaces(
     }
     warnings.extend(cells.warning());
     if unnamed > 0 {
-        notes.push(format!("{unnamed} things are told by their size: their names say nothing"));
+        notes.push(format!("{} told by size: the file gives no name that says more", counted(unnamed, "thing")));
     }
     Ok(obstacles)
 }

@@ -10,6 +10,7 @@ use super::shapes::{Shape, Space};
 use super::undersides::undersides;
 use super::words::{Part, ground_of_surface, is_indoors, part_of};
 use crate::open_ground::add_open_ground;
+use cosfly_diagnose::counted;
 use cosfly_domain::{Obstacle, ObstacleKind, OrientedBox, Synthetic, Town, WalkableKind};
 use cosfly_town::solids::{CoarseThings, SolidBoxes};
 use cosfly_town::units::unit_warning;
@@ -272,16 +273,18 @@ impl Parts {
         let Tally { storeys, bare_trees, stands, .. } = self.tally;
         if storeys > 0 {
             notes.push(format!(
-                "{storeys} buildings are as high as their storeys, {STOREY_M} m each: the file gives no height"
+                "{} without a height in the file: a storey counts as {STOREY_M} m",
+                counted(storeys, "building")
             ));
         }
         if bare_trees > 0 {
-            notes.push(format!("{bare_trees} trees have an assumed size: the file gives their place only"));
+            notes.push(format!("{} of an assumed size: the file gives the place only", counted(bare_trees, "tree")));
         }
         if stands > 0 {
             notes.push(format!(
-                "{stands} stands of plants (`PlantCover`) are bushes, and trees where they rise to points: trunks and crowns of up to 4 m are \
-                 invented; trees whose place is known need `SolitaryVegetationObject`"
+                "{} of plants (`PlantCover`): bushes, and trees where the faces rise to points; trunks and crowns of up to 4 m are \
+                 invented; trees whose place is known need `SolitaryVegetationObject`",
+                counted(stands, "stand")
             ));
         }
         let coarseness = terrain::add_terrain(&mut self.ground.meshes, &self.obstacles, terrain::USUAL_MARGIN_M)?;

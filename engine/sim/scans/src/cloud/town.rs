@@ -7,6 +7,7 @@ use super::sorting::Sorted;
 use super::survey::{self, Survey};
 use super::{buildings, ground, things, trees};
 use crate::open_ground::open_ground;
+use cosfly_diagnose::counted;
 use cosfly_domain::{ObstacleKind, SemanticLabel, Synthetic, Town};
 use cosfly_frames::DVec2;
 use cosfly_town::MapError;
@@ -75,11 +76,11 @@ pub fn town_of(mut cloud: Cloud, options: &CloudOptions) -> Result<(Town, Vec<St
     ));
     let trunks = obstacles.iter().filter(|one| one.kind == ObstacleKind::TreeTrunk).count();
     if trunks > 0 {
-        notes.push(format!("{trunks} trunks are invented under the crowns of the cloud"));
+        notes.push(format!("{} invented under the crowns of the cloud", counted(trunks, "trunk")));
     }
     let masts = obstacles.iter().filter(|one| one.kind == ObstacleKind::Pole && one.synthetic).count();
     if masts > 0 {
-        notes.push(format!("{masts} masts are invented under things that hang in the air"));
+        notes.push(format!("{} invented under things that hang in the air", counted(masts, "mast")));
     }
     let mut meshes = MeshBuilder::default();
     survey.relief.add_mesh(&mut meshes, |at| label(&survey, at));

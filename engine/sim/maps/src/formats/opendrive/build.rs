@@ -18,6 +18,7 @@ use super::slits::{self, Edge};
 use super::stations::{StationBudget, cross_sections};
 use super::surfaces::{self, DEFAULT_KERB_M};
 use super::{OpenDriveOptions, ground_patches, islands, parse_road, signals, verges, walkable};
+use cosfly_diagnose::counted;
 use cosfly_domain::{Lane, Obstacle, ObstacleKind, Synthetic, Town, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_town::mesh::MeshBuilder;
@@ -272,7 +273,7 @@ impl Parts {
         }
         if self.obstacles.without_size > 0 {
             let count = self.obstacles.without_size;
-            self.warnings.push(format!("{count} objects without a usable size or height are left out"));
+            self.warnings.push(format!("{} without a usable size or height left out", counted(count, "object")));
         }
         self.warnings.extend(self.obstacles.coarse.warnings());
         if self.painter.strokes >= MOST_STROKES {
