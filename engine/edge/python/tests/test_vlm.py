@@ -87,7 +87,43 @@ def test_malformed_answers_are_named_asked_again_and_counted(model, wrong, monke
     assert [bool(line["malformed"]) for line in lines] == [True, False, True, True]
     with pytest.raises(ValueError, match="20 malformed answers in a row"):
         for _ in range(20):
-            cosfly.vlm.act(observation())
+            cosfly.vlm.act(observation() | {"step": 10})
+    # Another episode of the same process begins to count anew: rows do not depend on jobs.
+    assert (cosfly.vlm.act(observation()) == 0).all()
+
+
+def test_a_missing_number_is_named(model, monkeypatch, capsys):
+    texts, _ = model
+    texts[:] = ['{"ahead": 1.5}']
+    cosfly.vlm.act(observation())
+    assert f"`{cosfly.vlm.ACTION[0]}` is missing; there must be {', '.join(cosfly.vlm.ACTION)}" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("status", [429, 500, 503])
+def test_a_busy_server_is_asked_again(status, monkeypatch):
+    statuses = [status, status, 200]
+
+    class Handler(BaseHTTPRequestHandler):
+        def do_POST(self):
+            self.rfile.read(int(self.headers["Content-Length"]))
+            data = json.dumps({"choices": [{"message": {"content": RIGHT}}]}).encode()
+            self.send_response(statuses.pop(0))
+            self.send_header("Content-Length", str(len(data)))
+            self.end_headers()
+            self.wfile.write(data)
+
+        def log_message(self, *_):
+            pass
+
+    server = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    monkeypatch.setenv("COSFLY_VLM_URL", f"http://127.0.0.1:{server.server_port}/v1")
+    monkeypatch.setattr(cosfly.vlm, "_PAUSES_S", (0.01, 0.01))
+    assert (cosfly.vlm.act(observation()) == 1.5).all() and not statuses
+    statuses[:] = [status] * 3
+    with pytest.raises(SystemExit, match=f"answers with status {status}"):
+        cosfly.vlm.act(observation())
+    server.shutdown()
 
 
 def test_a_key_with_a_line_end_is_refused_and_not_printed(model, monkeypatch):

@@ -15,6 +15,7 @@ import os
 import re
 import struct
 import sys
+import time
 import urllib.error
 import urllib.request
 import zlib
@@ -40,6 +41,8 @@ SCHEMA: dict[str, Any] = {
 
 _OWN = slice(6, 14)  # what the drone knows of itself: motion, pitch of the camera, height
 _ROWS = 64  # an answer holds until `--every` asks for the next
+_BUSY = (408, 429, 500, 502, 503, 504)
+_PAUSES_S = (0.5, 1.0, 2.0, 4.0)  # before a busy server is asked again
 _MOST_MALFORMED = 20  # in a row: then the policy has failed
 _malformed = {"all": 0, "row": 0, "answers": 0}
 
@@ -64,6 +67,8 @@ def _act(observation: dict[str, Any], known: slice) -> np.ndarray:
             content += [{"type": "text", "text": f"{name}:"}, {"type": "image_url", "image_url": {"url": url}}]
     messages: list[dict[str, Any]] = [{"role": "system", "content": SYSTEM}, {"role": "user", "content": content}]
     numbers, fault = None, ""
+    if observation["step"] == 0:
+        _malformed["row"] = 0  # an episode does not depend on those that this process flew before
     for _ in range(2):
         text = _ask(messages)
         numbers, fault = _read(text)
@@ -91,7 +96,9 @@ def _read(text: str) -> tuple[list[float] | None, str]:
         return None, f"the object is no JSON ({error})"
     if not isinstance(answer, dict):
         return None, "there is no JSON object in it"
-    numbers = [answer.get(name) for name in ACTION]
+    if missing := [name for name in ACTION if name not in answer]:
+        return None, f"`{missing[0]}` is missing; there must be {', '.join(ACTION)}"
+    numbers = [answer[name] for name in ACTION]
     for name, number in zip(ACTION, numbers):
         if isinstance(number, bool) or not isinstance(number, (int, float)) or not abs(number) <= 1e6:
             return None, f"`{name}` is {json.dumps(number)[:40]}; it is a number"
@@ -99,7 +106,7 @@ def _read(text: str) -> tuple[list[float] | None, str]:
 
 
 def _ask(messages: list[dict[str, Any]]) -> str:
-    """The model's text. Where there is no server, the process ends: the flight is begun anew."""
+    """The model's text. A server that is busy is asked again. Where there is none, the process ends: the flight is begun anew."""
     form = {"type": "json_schema", "json_schema": {"name": "action", "strict": True, "schema": SCHEMA}}
     address = os.environ.get("COSFLY_VLM_URL", "http://127.0.0.1:8080/v1").rstrip("/") + "/chat/completions"
     model = os.environ.get("COSFLY_VLM_MODEL", "default")
@@ -111,8 +118,7 @@ def _ask(messages: list[dict[str, Any]]) -> str:
         headers["Authorization"] = f"Bearer {key}"
     try:
         request = urllib.request.Request(address, json.dumps(body).encode(), headers)
-        with urllib.request.urlopen(request, timeout=600) as answer:
-            told = json.load(answer)
+        told = _answer(request)
         return str(told["choices"][0]["message"]["content"] or "")
     except urllib.error.HTTPError as error:
         raise SystemExit(f"{address} answers with status {error.code}: {error.read(300).decode('utf-8', 'replace')}") from None
@@ -120,6 +126,20 @@ def _ask(messages: list[dict[str, Any]]) -> str:
         raise SystemExit(f"{address} cannot be asked: {error}; COSFLY_VLM_URL names an OpenAI-compatible server") from None
     except (KeyError, IndexError, TypeError):
         raise SystemExit(f"{address} gave no `choices[0].message.content`: it is no OpenAI-compatible server") from None
+
+
+def _answer(request: urllib.request.Request) -> Any:
+    """What the server answers; one that is busy is asked again, after longer and longer pauses."""
+    for pause_s in _PAUSES_S:
+        try:
+            with urllib.request.urlopen(request, timeout=600) as answer:
+                return json.load(answer)
+        except urllib.error.HTTPError as error:
+            if error.code not in _BUSY:
+                raise
+        time.sleep(pause_s)
+    with urllib.request.urlopen(request, timeout=600) as answer:
+        return json.load(answer)
 
 
 def _log(observation: dict[str, Any], text: str, fault: str) -> None:
