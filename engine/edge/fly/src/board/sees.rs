@@ -6,6 +6,8 @@ use crate::results::{Card, METRICS};
 
 /// A flight that stays within this distance of the expert's on average, metres, is the expert's: a policy that sees no future chooses another one.
 const EXPERT_M: f64 = 1.0;
+/// A flight within this distance, metres, holds the expert's own actions: one is enough, because files can be mixed of several policies.
+const COPIED_M: f64 = 0.1;
 
 /// What a policy sees, as far as an entry tells.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,9 +37,15 @@ impl PolicySees {
         }
         // A baseline that was run again is this program's own; a network may know flights by heart.
         let is_known = shown.is_some() && card.policy.baseline.is_some();
-        let (near, long) = near_expert(rows);
-        if 2 * near > long && !is_known {
-            let words = format!("world: {near} of its flights are the expert's to less than {EXPERT_M} m");
+        let apart_m = from_expert_m(rows);
+        let within = |most_m: f64| apart_m.iter().filter(|apart_m| **apart_m < most_m).count();
+        let (near, copied) = (within(EXPERT_M), within(COPIED_M));
+        let (flights, most_m) = if 2 * near > apart_m.len() { (near, EXPERT_M) } else { (copied, COPIED_M) };
+        if flights > 0 && !is_known {
+            let words = format!(
+                "world: {flights} of its flights {} the expert's to less than {most_m} m",
+                if flights == 1 { "is" } else { "are" }
+            );
             return Ok(Self { world: true, words });
         }
         if let Some(shown) = shown {
@@ -48,10 +56,9 @@ impl PolicySees {
     }
 }
 
-/// Numbers of flights that stay near the expert's on average, and of all that were flown for at least half of their length.
-fn near_expert(rows: &[Row]) -> (usize, usize) {
+/// Mean distances from the expert's flight, metres, of all flights that last for at least half of their length.
+fn from_expert_m(rows: &[Row]) -> Vec<f64> {
     let metric = METRICS.iter().find(|metric| metric.name == "from_expert_m");
     let long = rows.iter().filter(|row| 2 * u64::from(row.score.steps) >= u64::from(row.score.planned_steps));
-    let apart_m: Vec<f64> = long.filter_map(|row| (metric?.of)(row)).collect();
-    (apart_m.iter().filter(|apart_m| **apart_m < EXPERT_M).count(), apart_m.len())
+    long.filter_map(|row| (metric?.of)(row)).collect()
 }
