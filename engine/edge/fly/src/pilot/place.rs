@@ -90,6 +90,7 @@ impl Place {
                 None => return None,
                 Some(change) => {
                     let change = change.replacen("-delay", ",delay_s=", 1).replacen("-noise", ",noise_mps=", 1);
+                    let change = change.replacen("-lead", ",lead_s=", 1);
                     Variation::read(&format!("gain={change}")).ok()?
                 }
             };
@@ -106,8 +107,9 @@ impl Place {
         };
         match self {
             Self::Baseline { name, variation } if *variation == Variation::NONE => (*name).to_owned(),
-            Self::Baseline { name, variation: Variation { delay_s, gain, noise_mps } } => {
-                format!("{name}-gain{gain}-delay{delay_s}-noise{noise_mps}")
+            Self::Baseline { name, variation: Variation { delay_s, gain, lead_s, noise_mps } } => {
+                let lead = if *lead_s > 0.0 { format!("-lead{lead_s}") } else { String::new() };
+                format!("{name}-gain{gain}-delay{delay_s}-noise{noise_mps}{lead}")
             }
             Self::Onnx(policy) => safe(policy.name()),
             Self::Socket(address) => safe(address.trim_start_matches("ws://")),
@@ -135,7 +137,9 @@ mod tests {
 
     #[test]
     fn names_of_baselines_are_read_back() {
-        for text in ["hold", "constant-velocity", "follow:gain=0.5", "causal:delay_s=0.3,noise_mps=1"] {
+        for text in
+            ["hold", "constant-velocity", "follow:gain=0.5", "causal:delay_s=0.3,noise_mps=1", "follow:lead_s=0.4"]
+        {
             let place = Place::read(text).expect("a baseline");
             assert_eq!(Place::of_baseline(&place.name()), Some(place), "{text}");
         }

@@ -1,4 +1,4 @@
-//! [`Variation`]: a baseline that acts more weakly, later or less steadily, for studies of benchmarks.
+//! [`Variation`]: a baseline that acts more weakly, later, earlier or less steadily, for studies of benchmarks.
 
 use super::{Baseline, Knowledge, Policy};
 use crate::action::Action;
@@ -7,7 +7,7 @@ use cosfly_frames::{DVec3, RandomStream};
 use std::collections::VecDeque;
 
 /// Keys of a variation, each with its largest value, sorted.
-const KEYS: [(&str, f64); 3] = [("delay_s", 5.0), ("gain", 10.0), ("noise_mps", 20.0)];
+const KEYS: [(&str, f64); 4] = [("delay_s", 5.0), ("gain", 10.0), ("lead_s", 2.0), ("noise_mps", 20.0)];
 
 /// Changes to the actions of a baseline.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,13 +16,15 @@ pub struct Variation {
     pub delay_s: f64,
     /// Factor of velocities and of turns of the camera.
     pub gain: f64,
+    /// Time by which actions run ahead: they go on as they changed from the one before. Seconds.
+    pub lead_s: f64,
     /// Deviation of the noise in each component of the velocity, m/s.
     pub noise_mps: f64,
 }
 
 impl Variation {
     /// No change.
-    pub const NONE: Self = Self { delay_s: 0.0, gain: 1.0, noise_mps: 0.0 };
+    pub const NONE: Self = Self { delay_s: 0.0, gain: 1.0, lead_s: 0.0, noise_mps: 0.0 };
 
     /// Reads `KEY=VALUE,...`.
     ///
@@ -37,6 +39,7 @@ impl Variation {
                 Some(((key, most), value)) if (0.0..=*most).contains(&value) => match *key {
                     "delay_s" => read.delay_s = value,
                     "gain" => read.gain = value,
+                    "lead_s" => read.lead_s = value,
                     _ => read.noise_mps = value,
                 },
                 _ => {
@@ -60,7 +63,7 @@ impl Variation {
             return policy;
         }
         let stream = environment.episode().seed.stream("variation of a policy");
-        Box::new(Varied { policy, change: *self, given: VecDeque::new(), due: Action::default(), stream })
+        Box::new(Varied { policy, change: *self, given: VecDeque::new(), due: Action::default(), before: None, stream })
     }
 }
 
@@ -71,14 +74,32 @@ struct Varied {
     given: VecDeque<(f64, Action)>,
     /// The last one that has arrived.
     due: Action,
+    /// The action of the policy before the newest, with its time, seconds.
+    before: Option<(f64, Action)>,
     stream: RandomStream,
+}
+
+impl Varied {
+    /// An action, `lead_s` further along its change from the one before.
+    fn led(&mut self, now_s: f64, action: Action) -> Action {
+        let before = self.before.replace((now_s, action));
+        let Some((then_s, before)) = before.filter(|(then_s, _)| now_s > *then_s) else { return action };
+        let ahead = self.change.lead_s / (now_s - then_s);
+        let mut led = action;
+        led.velocity_mps += ahead * (action.velocity_mps - before.velocity_mps);
+        led.view.yaw_rad_s += ahead * (action.view.yaw_rad_s - before.view.yaw_rad_s);
+        led.view.pitch_rad_s += ahead * (action.view.pitch_rad_s - before.view.pitch_rad_s);
+        led
+    }
 }
 
 impl Policy for Varied {
     fn act(&mut self, environment: &Environment) -> Action {
-        let Variation { delay_s, gain, noise_mps } = self.change;
+        let Variation { delay_s, gain, lead_s, noise_mps } = self.change;
         let now_s = environment.observation().time_s;
-        self.given.push_back((now_s, self.policy.act(environment)));
+        let action = self.policy.act(environment);
+        let action = if lead_s > 0.0 { self.led(now_s, action) } else { action };
+        self.given.push_back((now_s, action));
         while let Some((_, action)) = self.given.pop_front_if(|(given_s, _)| *given_s <= now_s - delay_s + 1e-9) {
             self.due = action;
         }
@@ -98,11 +119,11 @@ mod tests {
 
     #[test]
     fn variations_are_read_and_what_is_wrong_is_told() {
-        let read = Variation::read("gain=0.5,noise_mps=2").expect("a variation");
-        assert_eq!(read, Variation { gain: 0.5, noise_mps: 2.0, delay_s: 0.0 });
+        let read = Variation::read("gain=0.5,noise_mps=2,lead_s=0.3").expect("a variation");
+        assert_eq!(read, Variation { gain: 0.5, noise_mps: 2.0, lead_s: 0.3, delay_s: 0.0 });
         for text in ["", "gain", "gain=", "gain=-1", "gain=11", "gain=NaN", "lead=1"] {
             let wrong = Variation::read(text).expect_err(text);
-            assert!(wrong.contains("delay_s=0 to 5, gain=0 to 10, noise_mps=0 to 20"), "{wrong}");
+            assert!(wrong.contains("delay_s=0 to 5, gain=0 to 10, lead_s=0 to 2, noise_mps=0 to 20"), "{wrong}");
         }
     }
 }
