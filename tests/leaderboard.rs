@@ -161,6 +161,29 @@ fn an_experts_actions_are_no_entry_of_another_name() {
 }
 
 #[test]
+fn a_file_mixed_of_a_policy_and_the_expert_is_no_entry_of_another_name() {
+    let (street, _) = board();
+    let read = |name: &str| Bundle::read(&street.path().join(format!("board/{name}.jsonl.zst"))).expect("a bundle");
+    let (expert, mut mixed) = (read("expert"), read("hold"));
+    mixed.card.policy.name = "mine".to_owned();
+    mixed.card.policy.baseline = None;
+    mixed.episodes[1] = expert.episodes[1].clone();
+    std::fs::write(street.path().join("board/mixed.jsonl.zst"), mixed.bytes().expect("bytes")).expect("written");
+    std::fs::write(street.path().join("board/follow.toml"), "seconds = 0.5\ncore_seconds = 12").expect("written");
+    let board = table(street.path());
+    let suite = &board["suites"][0];
+    let mixed = suite["knows_world"].as_array().expect("a list").iter().find(|it| it["file"] == "mixed");
+    let sees = mixed.map(|it| &it["sees"]);
+    assert_eq!(sees, Some(&"world: 1 of its flights is the expert's to less than 0.1 m".into()), "{board:#}");
+    let follow = suite["ranked"].as_array().expect("a list").iter().find(|it| it["file"] == "follow");
+    let times = follow.map(|it| [&it["seconds_an_episode"], &it["core_seconds_an_episode"]]);
+    assert_eq!(times, Some([&0.5.into(), &12.0.into()]), "{board:#}");
+    leaderboard(street.path(), &[]);
+    let page = std::fs::read_to_string(street.path().join("board/index.html")).expect("a page");
+    assert!(page.contains("<td>0.500</td><td>12</td>") && page.contains("core-s an episode"));
+}
+
+#[test]
 fn a_varied_expert_is_no_entry_of_another_name_and_sensors_are_flown_again() {
     let (street, _) = board();
     let fly = ["fly", "recipe.toml", "--out", "more", "--clips", "0", "--logs", "none", "--quiet"];

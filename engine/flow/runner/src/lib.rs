@@ -33,6 +33,7 @@ pub use explain::{Explanation, Link, why};
 pub use options::RunOptions;
 pub use plan::{Plan, PlannedStage, recipe_id};
 pub use planning::{plan, plan_elsewhere, plan_for};
+pub use processor_time::{processor_s, processor_s_of_children};
 pub use reason::Reason;
 pub use run::run;
 pub use single::run_tasks;

@@ -4,6 +4,7 @@ mod bags;
 mod bundle;
 mod commit;
 mod compare;
+mod cost;
 pub mod policy;
 mod verify;
 
@@ -24,6 +25,7 @@ use cosfly_fly::settings::FlySettings;
 use cosfly_fly::suite::Suite;
 use cosfly_runner::RunOptions;
 use cosfly_store::check_out_folder;
+use cost::Clock;
 use policy::PolicyArguments;
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -49,7 +51,7 @@ Examples:
 
 A policy is a server that speaks openpi's wire, a function in Python, a network in an ONNX file, or a baseline: causal,
 constant-velocity, expert, follow, hold, random. A network's file says what it sees and how it is asked. Others get a map with `state` (16 numbers), `prompt`, `episode`, `step` and `time_s`, and answer with a
-map whose `actions` are rows of numbers. A baseline may be varied: follow:gain=0.5,delay_s=0.3,noise_mps=1. The result is a folder: card.json, report.html with clips of the worst
+map whose `actions` are rows of numbers. A baseline may be varied: follow:gain=0.5,delay_s=0.3,lead_s=0.2,noise_mps=1. The result is a folder: card.json, report.html with clips of the worst
 episodes, report.md, scores.json, episodes.jsonl, rows and logs. The same command goes on with what a folder lacks. Exits with 1 when a policy
 has given no right answer (then nothing is an episode, and nothing is kept) or went away before all episodes were flown."
 )]
@@ -233,6 +235,7 @@ impl Command for Arguments {
                 Order { suite, place, manners: &manners, settings, latency, shard, jobs, cancelled: &cancelled };
             let progress = console.progress("fly", "episodes");
             let deadline = console.deadline(None);
+            let clock = Clock::start();
             let outcome = run(&order, &card, &folder, &*progress)?;
             drop((progress, deadline));
             if let Some(problem) = &outcome.gone {
@@ -244,6 +247,9 @@ impl Command for Arguments {
                 let kept = outcome.rows.len() - outcome.flown;
                 let path = folder.path().display();
                 console.print(&format!("{path}: {} flown, {kept} kept{state}\n", outcome.flown))?;
+                if outcome.flown > 0 {
+                    console.tell(&format!("{name}: {}\n", clock.words(outcome.flown)));
+                }
             }
             if !outcome.rows.is_empty() {
                 arms.push((name, outcome.rows));

@@ -6,19 +6,26 @@ use serde_json::Value;
 use std::path::Path;
 
 /// Keys of the file, sorted.
-const KEYS: [&str; 4] = ["about", "licence", "link", "sees"];
+const KEYS: [&str; 6] = ["about", "core_seconds", "licence", "link", "seconds", "sees"];
 /// Most letters of a text.
 const MOST_LETTERS: usize = 300;
 
+/// Longest time of an episode, seconds.
+const MOST_SECONDS: f64 = 1e6;
+
 /// What the maker of an entry says of it.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Notes {
     /// A sentence.
     pub about: Option<String>,
+    /// Core-seconds of an episode, as measured by the maker.
+    pub core_seconds: Option<f64>,
     /// Licence of the policy.
     pub licence: Option<String>,
     /// Address of the policy: `https://` or `http://`.
     pub link: Option<String>,
+    /// Seconds of an episode by the clock, as measured by the maker.
+    pub seconds: Option<f64>,
     /// What the policy sees: `world`, or `state` and channels. Empty: what it was sent.
     pub sees: Vec<String>,
 }
@@ -38,8 +45,10 @@ impl Notes {
         for (key, value) in &table {
             match key.as_str() {
                 "about" => notes.about = Some(words(name, key, value)?),
+                "core_seconds" => notes.core_seconds = Some(seconds(name, key, value)?),
                 "licence" => notes.licence = Some(words(name, key, value)?),
                 "link" => notes.link = Some(address(name, value)?),
+                "seconds" => notes.seconds = Some(seconds(name, key, value)?),
                 "sees" => notes.sees = seen(name, value)?,
                 _ => return Err(format!("`{key}` is no key of `{name}`{}", near(key, &KEYS))),
             }
@@ -63,6 +72,11 @@ fn words(name: &str, key: &str, value: &Value) -> Result<String, String> {
         }
         _ => Ok(text.to_owned()),
     }
+}
+
+fn seconds(name: &str, key: &str, value: &Value) -> Result<f64, String> {
+    let number = value.as_f64().filter(|number| (0.0..=MOST_SECONDS).contains(number));
+    number.ok_or_else(|| format!("`{key}` of `{name}` must be a number of seconds from 0 to {MOST_SECONDS}"))
 }
 
 fn address(name: &str, value: &Value) -> Result<String, String> {
@@ -102,6 +116,8 @@ mod tests {
         let notes = read("licence = \"MIT\"\nlink = \"https://example.org/x\"\nsees = \"rgb\"\n").expect("notes");
         assert_eq!((notes.licence.as_deref(), notes.sees), (Some("MIT"), vec!["rgb".to_owned()]));
         assert_eq!(read("sees = [\"state\", \"depth\"]").expect("notes").sees.len(), 2);
+        let timed = read("seconds = 3\ncore_seconds = 4.5").expect("notes");
+        assert_eq!((timed.seconds, timed.core_seconds), (Some(3.0), Some(4.5)));
         assert_eq!(read("").expect("notes"), Notes::default());
         for (text, words) in [
             ("license = \"MIT\"", "did you mean `licence`?"),
@@ -109,6 +125,9 @@ mod tests {
             ("link = \"https://a b\"", "no spaces"),
             ("sees = \"rbg\"", "did you mean `rgb`?"),
             ("sees = [\"world\", \"rgb\"]", "stands alone"),
+            ("seconds = 1e300", "a number of seconds from 0"),
+            ("core_seconds = -1", "a number of seconds from 0"),
+            ("seconds = \"3\"", "a number of seconds from 0"),
             ("sees = 3", "must be a text"),
             ("about = ", "is no TOML"),
         ] {

@@ -107,6 +107,8 @@ fn table(title: &str, standings: &[Standing], note: &str) -> String {
     columns().for_each(|(_, metric)| head(&mut html, metric.title, metric.doc));
     head(&mut html, "latency", "time from an observation to the effect of the action that answers it");
     head(&mut html, "flown, s", "mean length of the flights, seconds");
+    head(&mut html, "s an episode", "time by the clock for an episode, seconds, as its maker measured it");
+    head(&mut html, "core-s an episode", "time of processors for an episode, core-seconds, as its maker measured it");
     head(&mut html, "licence", "licence of the policy, as its maker says");
     html.push_str("</tr></thead><tbody>");
     standings.iter().for_each(|standing| html += &line(standing));
@@ -142,11 +144,21 @@ fn line(standing: &Standing) -> String {
     columns().for_each(|(at, metric)| _ = write!(html, "<td>{}</td>", cell(metric, &plain(at))));
     let _ = write!(
         html,
-        "<td>{}</td><td>{flown_s:.1}</td><td>{}</td></tr>",
+        "<td>{}</td><td>{flown_s:.1}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
         escaped(&entry.card.latency()),
+        measured(entry.notes.seconds),
+        measured(entry.notes.core_seconds),
         escaped(entry.notes.licence.as_deref().unwrap_or("-"))
     );
     html
+}
+
+/// A time of the notes, seconds.
+fn measured(seconds: Option<f64>) -> String {
+    seconds.map_or(
+        "-".to_owned(),
+        |seconds| if seconds < 10.0 { format!("{seconds:.3}") } else { format!("{seconds:.0}") },
+    )
 }
 
 /// Name of the policy, with its version, the baseline that it is where that has another name, and its link where it has one.

@@ -37,6 +37,7 @@ fn of_standing(it: &Standing) -> Value {
         "proof": it.entry.proof.word(), "differs": it.entry.proof.differs(), "sees": it.entry.sees.words,
         "latency": it.entry.card.latency(), "scores": of_summaries(&it.scores), "behind_first": behind,
         "tracking_rate_by_group": groups, "licence": notes.licence, "link": notes.link, "about": notes.about,
+        "seconds_an_episode": notes.seconds, "core_seconds_an_episode": notes.core_seconds,
     })
 }
 
