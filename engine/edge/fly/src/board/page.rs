@@ -69,7 +69,7 @@ fn of_contest(contest: &Contest) -> String {
     let ground = serde_json::to_string_pretty(&contest.ground).unwrap_or_default();
     let _ = write!(
         html,
-        "<details><summary>Settings</summary><pre class=\"scroll\"><code>{}</code></pre></details>",
+        "<details><summary>Settings</summary><pre class=\"scroll\" tabindex=\"0\"><code>{}</code></pre></details>",
         escaped(&ground)
     );
     html
@@ -95,7 +95,9 @@ fn table(title: &str, standings: &[Standing], note: &str) -> String {
     if standings.is_empty() {
         return String::new();
     }
-    let mut html = format!("<div class=\"card wide\"><h3>{title}</h3><div class=\"scroll\"><table><thead><tr>");
+    let mut html = format!(
+        "<div class=\"card wide\"><h3>{title}</h3><div class=\"scroll\" role=\"group\" aria-label=\"{title}\" tabindex=\"0\"><table><thead><tr>"
+    );
     let head = |html: &mut String, name: &str, doc: &str| {
         let _ = write!(html, "<th scope=\"col\" title=\"{}\">{}</th>", escaped(doc), escaped(name));
     };
@@ -179,7 +181,8 @@ fn groups(contest: &Contest) -> String {
     let all: Vec<&Standing> = contest.all().take(contest.all().count() - contest.claimed.len()).collect();
     let Some(first) = all.first().filter(|first| !first.groups.is_empty()) else { return String::new() };
     let mut html = String::from(
-        "<div class=\"card wide\"><h3>Tracking rate by group of episodes</h3><div class=\"scroll\"><table><thead><tr>\
+        "<div class=\"card wide\"><h3>Tracking rate by group of episodes</h3>\
+         <div class=\"scroll\" role=\"group\" aria-label=\"Tracking rate by group of episodes\" tabindex=\"0\"><table><thead><tr>\
          <th scope=\"col\">policy</th>",
     );
     first.groups.iter().for_each(|(name, _)| _ = write!(html, "<th scope=\"col\">{}</th>", escaped(name)));

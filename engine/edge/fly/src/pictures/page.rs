@@ -62,7 +62,7 @@ fn scores(rows: &[Row]) -> String {
         groups.into_iter().filter(|_| several).map(|(name, rows)| (name, summary(&rows))).collect();
     let all = summary(&rows.iter().collect::<Vec<_>>());
     let mut html = String::from(
-        "<div class=\"card\"><div class=\"scroll\"><table><thead><tr><th scope=\"col\">metric</th><th scope=\"col\">all</th>",
+        "<div class=\"card\"><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Scores\"><table><thead><tr><th scope=\"col\">metric</th><th scope=\"col\">all</th>",
     );
     groups.iter().for_each(|(name, _)| _ = write!(html, "<th scope=\"col\">{}</th>", escaped(name)));
     html.push_str("</tr></thead><tbody>");
@@ -118,7 +118,7 @@ fn cases(worst: &[Case<'_>]) -> String {
 
 fn episodes(rows: &[Row], has_logs: bool) -> String {
     let mut html = String::from(
-        "<div class=\"card\"><div class=\"scroll\"><table><thead><tr><th scope=\"col\">episode</th><th scope=\"col\">\
+        "<div class=\"card\"><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Episodes\"><table><thead><tr><th scope=\"col\">episode</th><th scope=\"col\">\
          tracking rate</th><th scope=\"col\">losses</th><th scope=\"col\">visibility</th><th scope=\"col\">reward</th>\
          <th scope=\"col\">end</th><th scope=\"col\">log</th></tr></thead><tbody>",
     );
@@ -142,7 +142,7 @@ fn episodes(rows: &[Row], has_logs: bool) -> String {
 
 fn settings(card: &Card) -> String {
     let text = serde_json::to_string_pretty(card).unwrap_or_default();
-    format!("<div class=\"card\"><pre class=\"scroll\"><code>{}</code></pre></div>", escaped(&text))
+    format!("<div class=\"card\"><pre class=\"scroll\" tabindex=\"0\"><code>{}</code></pre></div>", escaped(&text))
 }
 
 fn foot(card: &Card) -> String {

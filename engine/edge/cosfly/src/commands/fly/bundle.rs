@@ -46,8 +46,9 @@ impl Arguments {
             name.push(".jsonl.zst");
             self.result.with_file_name(name)
         });
-        let written: Result<()> =
-            write_file(&path, &bytes).map_err(|error| Diagnostic::io(format!("write {}", path.display()), &error));
+        let folder = path.parent().map_or(Ok(()), std::fs::create_dir_all);
+        let written: Result<()> = (folder.and_then(|()| write_file(&path, &bytes)))
+            .map_err(|error| Diagnostic::io(format!("write {}", path.display()), &error));
         written?;
         let (shown, episodes) = (path.display(), text::count(bundle.episodes.len() as u64, "episode"));
         console.print(&format!("{shown}: {episodes}, {}\n", text::bytes(bytes.len() as u64)))?;
