@@ -122,7 +122,7 @@ fn a_camera_with_an_offset_films_between_the_steps() {
     cosfly(&["export", folder, "--format", "ros2", "--out", "bags"]).within(street.path()).run_ok();
     let late = filmed_by("[stages.frames.cameras.late]\noffset_s = 0.5");
     let printed = cosfly(&["run", "recipe.toml"]).within(late.path()).run();
-    assert!(printed.code == Some(3) && printed.stderr.contains("camera-offset"), "{}", printed.stderr);
+    assert!(printed.code == Some(3) && printed.stderr.contains("recipe-parameter"), "{}", printed.stderr);
 }
 
 #[test]

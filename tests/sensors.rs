@@ -287,12 +287,25 @@ fn sensors_of_some_films_only_are_refused_before_anything_is_made() {
     ];
     let said = printed.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(printed.code == Some(3) && words.iter().all(|word| said.contains(word)), "{}", printed.stderr);
-    // No camera is called so: every table is empty.
+    // No camera is called so.
     let street = rig("frnt", "[\"frames\", \"around\"]");
-    let printed = cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run();
-    let said = printed.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(
-        printed.code == Some(3) && said.contains("no reading of any flight") && said.contains("`camera`"),
-        "{said}"
+    let refused = |set: &str, words: &[&str]| {
+        let set: &[&str] = if set.is_empty() { &[] } else { &["--set", set] };
+        let printed = cosfly(&[&["plan", "recipe.toml"], set].concat()).within(street.path()).run();
+        let said = printed.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(printed.code == Some(3) && words.iter().all(|word| said.contains(word)), "{words:?}: {said}");
+    };
+    let words = [
+        "no item at `inputs.frames` is called `frnt`",
+        "names there: `front_left`, `front_right`, `slow`, `wide`",
+        "recipe.toml:45",
+        "camera = \"frnt\"",
+    ];
+    refused("", &words);
+    // A film begins before its second picture.
+    refused("stages.frames.cameras.front.offset_s=0.5", &["`0.5` is not less than `0.5`, the `dt_s` of `walkers`"]);
+    refused(
+        "stages.frames.cameras.slow.offset_s=1.5",
+        &["`1.5` is not less than `1.5`, 3 times the `dt_s` of `walkers`"],
     );
 }

@@ -68,7 +68,7 @@ impl<'a> Builder<'a> {
             match build_kind(kind, &parameters) {
                 Ok(parts) => Some(BuiltStage { parts, parameters }),
                 Err(error) => {
-                    wrong.push(self.parameter_problem(&error, &parameters, &stage.place));
+                    wrong.push(parameter_problem(&error, (&parameters, &stage.place), self.texts));
                     None
                 }
             }
@@ -100,15 +100,20 @@ impl<'a> Builder<'a> {
         }
         .hint(format!("stage kinds: {}", list(known(), usize::MAX)))
     }
+}
 
-    fn parameter_problem(&self, error: &ParameterError, parameters: &Node, stage: &Place) -> Box<Diagnostic> {
-        let node = parameters.deepest(error.path.iter().map(String::as_str));
-        let place = if std::ptr::eq(node, parameters) { stage } else { &node.place };
-        let problem = self.texts.problem("recipe-parameter", place, &error.message);
-        match &error.hint {
-            Some(hint) => problem.hint(hint),
-            None => problem,
-        }
+/// An error at the key of a stage that it is about.
+pub(crate) fn parameter_problem(
+    error: &ParameterError,
+    (parameters, stage): (&Node, &Place),
+    texts: &Texts,
+) -> Box<Diagnostic> {
+    let node = parameters.deepest(error.path.iter().map(String::as_str));
+    let place = if std::ptr::eq(node, parameters) { stage } else { &node.place };
+    let problem = texts.problem("recipe-parameter", place, &error.message);
+    match &error.hint {
+        Some(hint) => problem.hint(hint),
+        None => problem,
     }
 }
 

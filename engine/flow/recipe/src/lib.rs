@@ -16,6 +16,7 @@ mod items;
 mod kinds;
 mod load;
 mod model;
+mod needs;
 mod order;
 mod outline;
 mod overrides;

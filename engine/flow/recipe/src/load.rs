@@ -2,14 +2,14 @@
 
 use crate::document::{Problems, Texts, table_json};
 use crate::items::{Arranged, ItemReader, Wire};
-use crate::kinds::{Builder, BuiltPart, KnownStage};
+use crate::kinds::{Builder, BuiltPart, BuiltStage, KnownStage, parameter_problem};
 use crate::model::{Recipe, RecipeStage, SourceFile};
 use crate::order::dependency_order;
 use crate::outline::Outline;
 use crate::parameters::{Subject, check_parameters};
 use crate::sources::{Neighbours, SourceFinder};
 use crate::wiring::{Wires, Wiring};
-use crate::{for_each, overrides, toml_text};
+use crate::{for_each, needs, overrides, toml_text};
 use cosfly_diagnose::{Diagnostic, Fault, Label};
 use cosfly_stage::{PortSource, Registry, StageName};
 use std::collections::BTreeMap;
@@ -89,7 +89,7 @@ fn check(
     let mut assembly = Assembly { outline: &outline, wires, texts, stages: vec![], place_of: BTreeMap::new() };
     for stage in order.into_iter().filter(|_| graph_is_sound) {
         let Some(built) = known[stage].as_ref().and_then(|known| known.built.as_ref()) else { continue };
-        if let Err(problem) = assembly.add(stage, &built.parts, std::mem::take(&mut files[stage])) {
+        if let Err(problem) = assembly.add(stage, built, std::mem::take(&mut files[stage])) {
             problems.push(problem);
             break;
         }
@@ -154,11 +154,11 @@ struct Assembly<'a> {
 
 impl Assembly<'_> {
     /// Adds all parts of one stage of the outline.
-    fn add(&mut self, index: usize, parts: &[BuiltPart], files: Vec<Vec<SourceFile>>) -> Result<(), Box<Diagnostic>> {
+    fn add(&mut self, index: usize, built: &BuiltStage, files: Vec<Vec<SourceFile>>) -> Result<(), Box<Diagnostic>> {
         let outline = &self.outline.stages[index];
         let parameters = serde_json::Value::Object(crate::document::table_json(&outline.parameters));
         let mut siblings = BTreeMap::new();
-        for (part, sources) in parts.iter().zip(files) {
+        for (part, sources) in built.parts.iter().zip(files) {
             if self.is_left_out(index, part) {
                 continue;
             }
@@ -168,6 +168,8 @@ impl Assembly<'_> {
             let reader =
                 ItemReader { done: &self.stages, texts: self.texts, stage: name.as_str(), place: &outline.place };
             let Arranged { items, connections } = reader.read(properties, wires)?;
+            needs::check(&properties.needs, &connections, &self.stages)
+                .map_err(|error| parameter_problem(&error, (&built.parameters, &outline.place), self.texts))?;
             siblings.insert(part.suffix, self.stages.len());
             self.stages.push(RecipeStage {
                 name,

@@ -36,6 +36,8 @@ pub struct StageProperties {
     /// Name that a dataset has for what the stage makes of an item, such as a table; a port that gathers extras takes each name once an
     /// item. Not part of the key.
     pub gives: Option<String>,
+    /// What the stage asks of those that it reads; not part of the key.
+    pub needs: Vec<Need>,
     /// Role of the stage; not part of the key.
     pub role: StageRole,
     /// Resources of one item, for engines on other machines; not part of the key.
@@ -58,10 +60,38 @@ impl StageProperties {
             intermediate: &[],
             asks: None,
             gives: None,
+            needs: vec![],
             role,
             resources: Resources::default(),
         }
     }
+}
+
+/// What a parameter asks of the stages at a port: checked with the recipe, before anything is made.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Need {
+    /// Some item at the port is a variant of this name.
+    Variant {
+        /// The parameter, keys joined by dots.
+        parameter: String,
+        /// The port.
+        port: &'static str,
+        /// Name of the variant.
+        name: String,
+    },
+    /// A number is less than some times a number that stages have as a parameter: those at the port, and all that they read.
+    LessThan {
+        /// The parameter, keys joined by dots.
+        parameter: String,
+        /// Its number.
+        number: f64,
+        /// The port.
+        port: &'static str,
+        /// Parameter of those stages.
+        other: &'static str,
+        /// How many times theirs the number has to stay below.
+        times: f64,
+    },
 }
 
 /// Role of a stage in a recipe: other tools find stages by it, never by the names of kinds.

@@ -185,6 +185,7 @@ fn toy_stage(toy: &Toy, earlier: &[RecipeStage]) -> Result<RecipeStage> {
         intermediate: if toy.packs { &[PACK] } else { &[] },
         asks: None,
         gives: None,
+        needs: vec![],
         role: StageRole::Changes,
         resources: Resources { memory_mib: 0, batch: 1 },
     };

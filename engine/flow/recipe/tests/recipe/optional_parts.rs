@@ -29,6 +29,7 @@ impl Film {
             intermediate: &[],
             asks: None,
             gives: None,
+            needs: vec![],
             role: StageRole::Changes,
             resources: Resources::default(),
         }

@@ -69,6 +69,7 @@ impl Toy {
             intermediate: &[],
             asks: None,
             gives: None,
+            needs: vec![],
             role: StageRole::Changes,
             resources: Resources::default(),
         }
