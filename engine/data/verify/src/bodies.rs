@@ -28,7 +28,8 @@ pub struct PlacedBody {
     /// Edges around the visible pixels: left, top, right, bottom.
     pub visible_box: Option<[f64; 4]>,
     body_id: String,
-    kind: Option<BodyKind>,
+    /// Kind; none of an unknown one.
+    pub kind: Option<BodyKind>,
     /// Length, width and height, metres.
     pub size_m: DVec3,
     /// Heading, radians.

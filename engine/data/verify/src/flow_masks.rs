@@ -1,7 +1,8 @@
 //! Masks of optical flow: against the depths that the frame beside has where the points go.
 
-use super::flow::StandingPoints;
-use super::rows::{PlacedFlight, PlacedFrame};
+use super::film::Film;
+use super::flow::ComparedPoints;
+use super::rows::PlacedFlight;
 use cosfly_domain::channels::FlowTo;
 
 /// Pixels beyond the edge at which a point has certainly left the picture, and within it at which it certainly has not.
@@ -44,9 +45,8 @@ impl FlowMasks {
     /// What is wrong with the mask of a frame; one to the next frame waits for it.
     pub fn finding(
         &mut self,
-        standing: &StandingPoints,
-        flight: &PlacedFlight,
-        frames: &[PlacedFrame],
+        points: &ComparedPoints,
+        film: Film<'_>,
         (frame, to): (usize, FlowTo),
         stored: &[u8],
     ) -> Option<String> {
@@ -54,9 +54,9 @@ impl FlowMasks {
             let is_shown = stored.get(pixel).is_some_and(|byte| *byte != 0);
             End { pixel, place_px, ahead_m, is_shown }
         };
-        let ends: Vec<End> = standing.ends(flight, frames, (frame, to)).into_iter().map(end).collect();
+        let ends: Vec<End> = points.ends(film, (frame, to)).into_iter().map(end).collect();
         match to {
-            FlowTo::Previous => problem(&ends, &self.before, flight),
+            FlowTo::Previous => problem(&ends, &self.before, film.flight),
             FlowTo::Next => {
                 self.waiting = ends;
                 None

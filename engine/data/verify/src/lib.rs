@@ -18,6 +18,7 @@ mod disparity;
 mod extras;
 mod figures;
 mod files;
+mod film;
 mod flight_list;
 mod flight_rows;
 mod flights;

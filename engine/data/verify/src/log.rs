@@ -3,6 +3,8 @@
 use super::bodies::PlacedBody;
 use super::body::Body;
 use super::captions::Caption;
+use super::film::{Film, readout_of};
+use super::flow::Carrier;
 use super::ground::BodiesOnGround;
 use super::on_request::{KnownFrame, OnRequest, edges};
 use super::report::VerifyReport;
@@ -10,11 +12,13 @@ use super::rows::{PlacedFlight, PlacedFrame};
 use ::mcap::records::Record;
 use cosfly_diagnose::{Stop, counted};
 use cosfly_domain::channels::{ChannelSource, Element, depth, flow};
-use cosfly_domain::{Channel, ChannelSet, SemanticLabel, TARGET_INSTANCE, channels};
+use cosfly_domain::{BodyKind, Channel, ChannelSet, ReadoutStrips, SemanticLabel, TARGET_INSTANCE, channels};
 use cosfly_frames::{DQuat, DVec3};
 use cosfly_read::read_records;
 use cosfly_schema::log::messages::shift_px;
-use cosfly_schema::log::{BODIES_3D_ROWS, Frequency, TargetStateMessage, formats, right_handed, topic, topics};
+use cosfly_schema::log::{
+    BODIES_3D_ROWS, Frequency, READOUT_ENDS, READOUT_OFFSETS, TargetStateMessage, formats, right_handed, topic, topics,
+};
 use foxglove::messages;
 use prost::Message;
 use std::collections::{BTreeMap, BTreeSet};
@@ -73,6 +77,7 @@ pub fn check(
         on_ground: BodiesOnGround::default(),
         on_request: OnRequest::default(),
         is_ours: false,
+        readout: (flight.readout_s == 0.0).then(ReadoutStrips::at_once),
     };
     let mut input = known.stop.reading(BufReader::new(input));
     if let Err(damage) = read_records(&mut input, &mut |record| log.record(record)) {
@@ -105,6 +110,8 @@ struct LogCheck<'a> {
     /// What the last frame's other pictures are compared with.
     on_request: OnRequest,
     is_ours: bool,
+    /// Strips of its pictures; none where they are unknown.
+    readout: Option<ReadoutStrips>,
 }
 
 impl LogCheck<'_> {
@@ -127,6 +134,13 @@ impl LogCheck<'_> {
                         boxes = counted(boxes, "row")
                     );
                     self.find(String::new(), "verify-3d", message);
+                }
+            }
+            Record::Metadata(metadata) if metadata.name == "cosfly.camera" => {
+                let text = |key: &str| metadata.metadata.get(key).map(String::as_str);
+                match readout_of(self.flight, text(READOUT_ENDS), text(READOUT_OFFSETS)) {
+                    Ok(readout) => self.readout = readout,
+                    Err(message) => self.find(String::new(), "verify-camera", message),
                 }
             }
             Record::Message { header, data } => {
@@ -191,7 +205,7 @@ impl LogCheck<'_> {
                 }
                 let labels = self.labels.take().filter(|(of, _)| *of == frame);
                 if let Some((_, depth)) = self.depth.take().filter(|(of, _)| *of == frame) {
-                    self.check_depth(&depth, &of_target, row);
+                    self.check_depth(&depth, &of_target, frame);
                     if let Some((_, labels)) = &labels {
                         let pixels = [&depth.data[..], &labels.data[..]];
                         self.on_ground.add(self.flight, row, self.known.others_in(row.frame), pixels);
@@ -211,9 +225,9 @@ impl LogCheck<'_> {
                 if let Some(at) = pixels.position(|pixel| !(channel.is_value)(pixel)) {
                     self.find(place, "verify-pixels", format!("pixel {at} holds no value of `{}`", channel.name));
                 } else {
-                    let (known, width) = ((self.flight, self.frames), image.width as usize);
-                    if let Some((rule, message)) = self.on_request.finding(known, (frame, channel), &image.data, width)
-                    {
+                    let (readout, width) = (self.readout.as_ref(), image.width as usize);
+                    let film = Film { flight: self.flight, frames: self.frames, others: self.known.others, readout };
+                    if let Some((rule, message)) = self.on_request.finding(film, (frame, channel), &image.data, width) {
                         self.find(place, rule, message);
                     }
                 }
@@ -235,7 +249,25 @@ impl LogCheck<'_> {
         let objects = self.known.objects;
         let has_flow = objects.is_some() && channels::ALL.iter().filter(is_flow).any(|channel| is_logged(channel));
         let stands = |id: u32| id == 0 || objects.is_some_and(|ids| ids.contains(&id));
-        let known = KnownFrame { frame, depths: &depth.data, labels, ids, of_target, has_flow, stands: &stands };
+        let (kind_of_target, others) =
+            (self.flight.target_kind.as_deref(), self.known.others_in(self.frames[frame].frame));
+        let carries = |id: u32| {
+            let kind = match id {
+                TARGET_INSTANCE => BodyKind::ON_THE_GROUND.iter().copied().find(|it| Some(it.name()) == kind_of_target),
+                _ => others.iter().find(|body| body.instance == Some(id)).and_then(|body| body.kind),
+            }?;
+            Some(if kind.is_person() { Carrier::Limbs } else { Carrier::Rigid })
+        };
+        let known = KnownFrame {
+            carries: &carries,
+            frame,
+            depths: &depth.data,
+            labels,
+            ids,
+            of_target,
+            has_flow,
+            stands: &stands,
+        };
         if let Some(message) = self.on_request.begin(self.flight, &self.frames[frame], known) {
             let place = format!("`{}` frame {}", topic::images(&flow::FORWARD_VALID), frame.saturating_sub(1));
             self.find(place, "verify-flow", message);
@@ -320,23 +352,37 @@ impl LogCheck<'_> {
     }
 
     /// Depths of the target's pixels against the space that its body may fill.
-    fn check_depth(&mut self, image: &messages::RawImage, of_target: &[usize], row: &PlacedFrame) {
+    fn check_depth(&mut self, image: &messages::RawImage, of_target: &[usize], frame: usize) {
+        let film = Film {
+            flight: self.flight,
+            frames: self.frames,
+            others: self.known.others,
+            readout: self.readout.as_ref(),
+        };
         // Rows of a rolling shutter see the body from other poses than the frame's.
-        if self.flight.readout_s > 0.0 {
+        let row = &self.frames[frame];
+        let body = Body::of_target(self.flight, row);
+        let reach = |offset_s: &f64| {
+            let (pose, state) = (film.pose(frame, *offset_s)?, film.body(TARGET_INSTANCE, frame, *offset_s)?);
+            Some(Body { feet: state.0, ..body.clone() }.depths_m(self.flight, &pose))
+        };
+        let Some(reaches) = film.readout.and_then(|it| it.offsets_s.iter().map(reach).collect::<Option<Vec<_>>>())
+        else {
             return;
-        }
-        let (near, far) = Body::of_target(self.flight, row).depths_m(self.flight, &row.camera_pose);
+        };
+        let is_beyond = |(at, depth_m): &(usize, f64)| {
+            let reach = film.strip_of(*at).and_then(|strip| reaches.get(strip));
+            reach.is_some_and(|(near, far)| !(near - DEPTH_SLACK_M..=far + DEPTH_SLACK_M).contains(depth_m))
+        };
         let depth_m = |at: usize| {
             image
                 .data
                 .get(4 * at..4 * at + 4)
                 .map(|it| f64::from(f32::from_le_bytes(it.try_into().expect("four bytes"))))
         };
-        let wrong = of_target
-            .iter()
-            .filter_map(|at| depth_m(*at))
-            .find(|d| !(near - DEPTH_SLACK_M..=far + DEPTH_SLACK_M).contains(d));
-        if let Some(depth_m) = wrong {
+        let wrong = of_target.iter().filter_map(|at| Some((*at, depth_m(*at)?))).find(is_beyond);
+        if let Some((at, depth_m)) = wrong {
+            let (near, far) = film.strip_of(at).map_or((0.0, 0.0), |strip| reaches[strip]);
             let message =
                 format!("a pixel of the target is {depth_m} m deep; its body lies between {near:.3} and {far:.3} m");
             self.find(format!("`{}` frame {}", topic::images(&depth::CHANNEL), row.frame), "verify-depth", message);

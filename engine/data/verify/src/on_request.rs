@@ -1,12 +1,13 @@
 //! Pictures that a recipe asks for, against depth, labels and ids of the same frame and of the frames beside it.
 
 use super::disparity::KnownDepths;
-use super::flow::StandingPoints;
+use super::film::Film;
+use super::flow::{Carrier, ComparedPoints};
 use super::flow_masks::FlowMasks;
 use super::rows::{PlacedFlight, PlacedFrame};
 use super::surfaces::Surfaces;
-use cosfly_domain::Channel;
 use cosfly_domain::channels::{ChannelSource, normals};
+use cosfly_domain::{Channel, SemanticLabel};
 
 /// What is known of a frame before its other pictures come.
 pub struct KnownFrame<'a> {
@@ -24,6 +25,8 @@ pub struct KnownFrame<'a> {
     pub has_flow: bool,
     /// Whether an id is of something that stands.
     pub stands: &'a dyn Fn(u32) -> bool,
+    /// How the parts of a body with an id move; none of an id that nobody has.
+    pub carries: &'a dyn Fn(u32) -> Option<Carrier>,
 }
 
 /// What the last frame's pictures are compared with.
@@ -31,7 +34,7 @@ pub struct KnownFrame<'a> {
 pub struct OnRequest {
     frame: Option<usize>,
     of_target: Vec<usize>,
-    standing: StandingPoints,
+    points: ComparedPoints,
     masks: FlowMasks,
     disparities: KnownDepths,
     surfaces: Surfaces,
@@ -40,7 +43,7 @@ pub struct OnRequest {
 impl OnRequest {
     /// Goes on to a frame; what is wrong with a mask that waited for its depths.
     pub fn begin(&mut self, flight: &PlacedFlight, row: &PlacedFrame, known: KnownFrame<'_>) -> Option<String> {
-        let KnownFrame { frame, depths, labels, ids, of_target, has_flow, stands } = known;
+        let KnownFrame { frame, depths, labels, ids, of_target, has_flow, stands, carries } = known;
         self.frame = Some(frame);
         self.of_target = of_target;
         self.disparities = KnownDepths::of(flight, depths);
@@ -48,30 +51,37 @@ impl OnRequest {
         if !has_flow {
             return None;
         }
-        self.standing = StandingPoints::of(frame, depths, |pixel| ids.get(pixel).is_some_and(|id| stands(*id)));
+        self.points = ComparedPoints::of(frame, depths, |pixel| {
+            let id = *ids.get(pixel)?;
+            if stands(id) {
+                return Some((0, Carrier::Ground));
+            }
+            let is_rider = labels.is_some_and(|it| it.get(pixel) == Some(&SemanticLabel::Rider.id()));
+            Some((id, carries(id).map(|kind| if is_rider { Carrier::Limbs } else { kind })?))
+        });
         self.masks.begin(flight, depths)
     }
 
     /// What is wrong with a picture of a frame: rule and words.
     pub fn finding(
         &mut self,
-        (flight, frames): (&PlacedFlight, &[PlacedFrame]),
+        film: Film<'_>,
         (frame, channel): (usize, &Channel),
         stored: &[u8],
         width: usize,
     ) -> Option<(&'static str, String)> {
-        let row = frames.get(frame).filter(|_| self.frame == Some(frame))?;
+        let (flight, row) = (film.flight, film.frames.get(frame).filter(|_| self.frame == Some(frame))?);
         let in_rule = |rule: &'static str| move |message: String| (rule, message);
         match channel.source {
             ChannelSource::Target => self.mask_problem(stored).map(in_rule("verify-pixels")),
             ChannelSource::TargetAlone => self.amodal_problem(stored, width, row).map(in_rule("verify-pixels")),
             ChannelSource::Flow(_) => {
-                let found = self.standing.finding(flight, frames, (frame, channel), stored);
+                let found = self.points.finding(film, (frame, channel), stored);
                 found.map(in_rule("verify-flow"))
             }
             ChannelSource::FlowValid(to) => {
-                let found = self.standing.finding(flight, frames, (frame, channel), stored);
-                let found = found.or_else(|| self.masks.finding(&self.standing, flight, frames, (frame, to), stored));
+                let found = self.points.finding(film, (frame, channel), stored);
+                let found = found.or_else(|| self.masks.finding(&self.points, film, (frame, to), stored));
                 found.map(in_rule("verify-flow"))
             }
             ChannelSource::Bytes(_) if *channel == normals::CHANNEL => {

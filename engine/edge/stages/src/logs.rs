@@ -39,7 +39,7 @@ pub fn part(frames: InputPort, captions: InputPort, extras: InputPort) -> StageP
     // What plugins made is in no log: another version of a plugin writes no log anew.
     let extras = InputPort { sees: Sees::Only(&[READINGS]), ..ports::group(extras) };
     let properties = StageProperties {
-        version: 9,
+        version: 10,
         // Logs read no parameter: another title or split rewrites no log.
         parameters: serde_json::json!({}),
         inputs: vec![frames, captions, extras],

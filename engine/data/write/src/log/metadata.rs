@@ -2,8 +2,8 @@
 
 use crate::frame_pack::PackHeader;
 use cosfly_domain::channels::instance;
-use cosfly_domain::{BodyKindRow, Obstacle, SemanticLabel, TARGET_INSTANCE, Town, object_instance};
-use cosfly_schema::log::BODIES_3D_ROWS;
+use cosfly_domain::{BodyKindRow, Obstacle, ReadoutStrips, SemanticLabel, TARGET_INSTANCE, Town, object_instance};
+use cosfly_schema::log::{BODIES_3D_ROWS, READOUT_ENDS, READOUT_OFFSETS};
 use cosfly_schema::tables::kind_name;
 use cosfly_schema::{DepthEncoding, OtherBody, RenderedTrajectory};
 use serde::Serialize;
@@ -122,6 +122,12 @@ fn camera(record: &RenderedTrajectory) -> BTreeMap<String, String> {
         ("noise_shot", record.noise.shot.to_string()),
     ]);
     all.extend(numbers(&record.optics));
+    if !record.rolling_shutter.is_none() {
+        // When each row was taken: flow and depth are of these moments.
+        let strips = ReadoutStrips::of(&record.rolling_shutter, camera, &record.lens);
+        all.insert(READOUT_ENDS.to_owned(), format!("{:?}", strips.ends_px));
+        all.insert(READOUT_OFFSETS.to_owned(), format!("{:?}", strips.offsets_s));
+    }
     if record.begins_ns > 0 {
         all.insert("offset_s".to_owned(), record.times().s(0).to_string());
     }

@@ -46,22 +46,13 @@ impl LensMap {
         if lens.is_wide(&camera) {
             return Self::all_around(camera, lens);
         }
-        let (cx, cy, focal) = camera.centre_and_focal_px();
+        let (cx, _, focal) = camera.centre_and_focal_px();
         // A lens that `RenderConfig::validate` refuses shows the ideal picture where it shows nothing.
         let unbend = |(column, row): (u32, u32)| {
             let seen = (f64::from(column) + 0.5, f64::from(row) + 0.5);
             lens.unbend(&camera, seen).unwrap_or(seen)
         };
-        let (mut reach_u, mut reach_v) = (cx, cy);
-        let (last_column, last_row) = (camera.width.saturating_sub(1), camera.height.saturating_sub(1));
-        let rows = (0..camera.height).flat_map(|row| [(0, row), (last_column, row)]);
-        for pixel in rows.chain((0..camera.width).flat_map(|column| [(column, 0), (column, last_row)])) {
-            let (u, v) = unbend(pixel);
-            reach_u = reach_u.max((u - cx).abs() + 1.0);
-            reach_v = reach_v.max((v - cy).abs() + 1.0);
-        }
-        let margin = |reach: f64, half: f64| (reach - half).ceil().clamp(0.0, 4.0 * half) as u32;
-        let (margin_u, margin_v) = (margin(reach_u, cx), margin(reach_v, cy));
+        let [margin_u, margin_v] = lens.margins_px(&camera);
         let ideal = Camera {
             width: camera.width + 2 * margin_u,
             height: camera.height + 2 * margin_v,
