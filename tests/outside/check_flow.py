@@ -1,19 +1,26 @@
 """Judges the optical flow of a dataset by reprojection: from depth, ids, the camera's poses and the tables of bodies alone.
 
-Usage: `check_flow.py DATASET_FOLDER [--least-pixels N] [--plant scale|sign|swap|frame]`. Shares no code with cosfly. What stands (town, ground, sky)
+Usage: `check_flow.py DATASET_FOLDER [--least-pixels N] [--plant FAULT]`. Shares no code with cosfly. What stands (town, ground, sky)
 and vehicles must agree to 0.01 px beyond the step of the stored depth, through the lens. People move part by part: their pixels may differ from their
 body's motion by what a limb can do in a frame, and most of the ways that the mask calls seen must end on the same person. The mask is compared with
-the depth that the neighbouring frame has there. Needs logs without a rolling shutter. `--plant` spoils the flow first: the check must then fail."""
+the depth that the neighbouring frame has there. With a rolling shutter each row has the pose of its own moment, from the strips in the log's
+`cosfly.camera`: a way must end in a row whose moment shows the point there. `--plant` spoils the flow first, or turns, doubles or forgets the
+read-out: the check must then fail."""
 
+import json
 from collections import defaultdict
 
 import numpy as np
-from shared import axes_of, command_line, end_with, flown, messages, pixels, place, require, rows, world_from_body
+from shared import axes_of, command_line, end_with, flown, messages, pixels, place, require, rows, turned, world_from_body
 
 RIDER = 13
 MOST_PX = 0.01
 STEP_M = 0.5 / 1024
 LIMB_MPS = 8.0
+EDGE_PX = 0.05
+ANGLES = ["camera_pitch_deg", "camera_yaw_deg", "camera_roll_deg"]
+SPOILT_FLOWS = {None: lambda it: it, "scale": lambda it: it * 1.02, "sign": lambda it: -it, "swap": lambda it: it[..., ::-1], "frame": lambda it: it}
+SPOILT_SHUTTERS = {"readout-sign": -1, "readout-double": 2, "readout-none": 0}
 CHANNELS = ["depth", "instance", "semantic", "flow_forward", "flow_forward_valid", "flow_back", "flow_back_valid"]
 
 
@@ -48,18 +55,46 @@ def moved(points, here, there):
 
 def eye(row):
     """Position of the camera."""
-    return np.array(row["camera_in_world_m"] or place(row, "drone"))
+    own = row["camera_in_world_m"]
+    return np.array(place(row, "drone") if own is None else own)
 
 
 def project(points, row, lens):
-    seen = (points - eye(row)) @ axes_of(row)
+    seen = (points - eye(row)) @ axes_of(row)  # ahead, right, up
     ahead = np.where(seen[..., 0] > 0.05, seen[..., 0], np.nan)
     ideal = lens.centre + lens.focal * np.stack([seen[..., 1], -seen[..., 2]], -1) / ahead[..., None]
-    return lens.bend(ideal), ahead
+    return lens.bend(ideal), ahead, ideal[..., 1]
 
 
-def spoiled(flow, how):
-    return {None: flow, "scale": flow * 1.02, "sign": -flow, "swap": flow[..., ::-1]}[how]
+class Shutter:
+    """Strips of rows, of the picture without its lens, that are taken together."""
+
+    def __init__(self, log, flight, factor):
+        from mcap.reader import make_reader
+
+        self.ends, self.offsets = np.array([np.inf]), np.zeros(1)
+        if flight["camera_readout_s"]:
+            with open(log, "rb") as file:
+                said = next(it.metadata for it in make_reader(file).iter_metadata() if it.name == "cosfly.camera")
+            self.ends, self.offsets = np.array(json.loads(said["readout_ends_px"])), factor * np.array(json.loads(said["readout_offsets_s"]))
+            begins = np.r_[flight["camera_height_px"] - self.ends[-1], self.ends[:-1]]
+            due = flight["camera_readout_s"] * ((begins + self.ends) / 2 / flight["camera_height_px"] - 0.5)
+            scale = flight["camera_height_px"] / (self.ends[-1] - begins[0])
+            require(np.allclose(self.offsets, factor * scale * due, atol=1e-9), "the strips of the log are not those of `camera_readout_s`")
+
+    def strip(self, row):
+        return np.minimum(np.searchsorted(self.ends, row, "right"), len(self.ends) - 1)
+
+    def is_edge(self, strip, row):
+        """Whether a row is so near to an edge of the strip that the step of the depth decides on which side it is."""
+        edges = np.r_[-np.inf, self.ends[:-1], np.inf]
+        return np.minimum(np.abs(row - edges[strip]), np.abs(row - edges[strip + 1])) < EDGE_PX
+
+
+def later(before, after, share, places, angles):
+    """Numbers of two rows, some share of the way between them; angles turn the short way."""
+    row = {name: (1 - share) * np.array(before[name]) + share * np.array(after[name]) for name in places}
+    return row | {name: before[name] + share * turned(after[name], before[name]) for name in angles}
 
 
 class Judge:
@@ -71,6 +106,28 @@ class Judge:
         for row in rows(folder, "bodies", ["trajectory_id", "frame", "instance", "kind", "feet_in_world_m", "heading_deg"]):
             self.bodies[row["trajectory_id"], row["frame"]][row["instance"]] = row
 
+    def camera(self, flight, frame, offset_s):
+        """The camera some seconds after a frame: it moves evenly from frame to frame, and on beyond the first and the last one."""
+        all_rows = self.frames[flight["trajectory_id"]]
+        first = int(np.clip(np.floor(frame + offset_s / flight["dt_s"]), 0, len(all_rows) - 2))
+        rows = [{"camera_in_world_m": eye(row)} | {it: row[it] for it in ANGLES} for row in (all_rows[first], all_rows[first + 1])]
+        return later(*rows, frame - first + offset_s / flight["dt_s"], ["camera_in_world_m"], ANGLES)
+
+    def bodies_at(self, flight, frame, offset_s):
+        """Everybody some seconds after a frame; where others come and go they stand."""
+        here, step = self.about(flight, frame), -1 if offset_s < 0 else 1
+        if not offset_s:
+            return here
+        last = len(self.frames[flight["trajectory_id"]]) - 1
+        other = frame + step if 0 <= frame + step <= last else frame - step
+        beside, share = self.about(flight, other), offset_s / flight["dt_s"] / (other - frame)
+        moved = {}
+        for instance, row in here.items():
+            part = share if instance == 1 else max(share, 0)
+            numbers = later(row, beside[instance], part, ["feet_in_world_m"], ["heading_deg"]) if instance in beside else row
+            moved[instance] = {"kind": row["kind"], **numbers}
+        return moved
+
     def about(self, flight, frame):
         """Bodies of a frame by instance id, the target among them."""
         row = self.frames[flight["trajectory_id"]][frame]
@@ -78,6 +135,9 @@ class Judge:
         return {1: target, **self.bodies[flight["trajectory_id"], frame]}
 
     def flight(self, flight):
+        whole = (flight["camera_every"], flight["duration_s"]) == (1, flight["dt_s"] * (flight["frames"] - 1))
+        require(not flight["camera_readout_s"] or whole, "the tables do not have the motion between pictures that are not of every frame")
+        self.shutter = Shutter(self.folder / flight["mcap_path"], flight, SPOILT_SHUTTERS.get(self.plant, 1))
         logged = defaultdict(list)
         for topic, image, *_ in messages(self.folder / flight["mcap_path"], [f"/camera/{name}/image" for name in CHANNELS]):
             logged[topic.split("/")[2]].append(pixels(image))
@@ -89,35 +149,54 @@ class Judge:
                 if not is_there and (flow.any() or valid.any()):
                     self.wrong.append(f"{place}: there is no such frame, and not all is 0")
                 elif is_there and 0 <= other < len(logged[name]):
-                    self.pair(place, flight, logged, (frame, other), spoiled(flow, self.plant if self.plant != "frame" else None), valid)
+                    self.pair(place, flight, logged, (frame, other), SPOILT_FLOWS.get(self.plant, SPOILT_FLOWS[None])(flow), valid)
 
     def pair(self, place, flight, logged, pair, flow, valid):
         lens, (frame, other) = Lens(flight), pair
-        here, there = (self.frames[flight["trajectory_id"]][it] for it in pair)
         depth, ids, labels = (logged[name][frame] for name in ("depth", "instance", "semantic"))
-        depth = depth.astype(float)
+        depth, offsets = depth.astype(float), self.shutter.offsets
         rows_, columns = np.indices(depth.shape)
         centre = lens.sampled(np.stack([columns, rows_], -1) + 0.5)
-        ray = np.concatenate([np.ones((*depth.shape, 1)), (centre - lens.centre) / lens.focal * [1, -1]], -1) @ axes_of(here).T
-        around, around_there = self.about(flight, frame), self.about(flight, other)
-        points = lambda depth_m: eye(here) + np.minimum(depth_m, 1e9)[..., None] * ray
-
-        def ways(depth_m):
-            at, kinds = points(depth_m), np.zeros(depth.shape, "U8")
-            kinds[(ids == 0) | np.isin(ids, list(self.objects))] = "standing"
-            for instance in np.unique(ids):
-                body, later = around.get(instance), around_there.get(instance)
-                if instance in self.objects or not body or not later:
-                    continue
+        own = self.shutter.strip(centre[..., 1])
+        here, there = ([self.camera(flight, it, offset) for offset in offsets] for it in pair)
+        around, around_there = ([self.bodies_at(flight, it, offset) for offset in offsets] for it in pair)
+        ray = np.concatenate([np.ones((*depth.shape, 1)), (centre - lens.centre) / lens.focal * [1, -1]], -1)
+        from_ = np.zeros(ray.shape)
+        for strip in range(len(offsets)):
+            ray[own == strip] = ray[own == strip] @ axes_of(here[strip]).T
+            from_[own == strip] = eye(here[strip])
+        kinds = np.zeros(depth.shape, "U8")
+        kinds[(ids == 0) | np.isin(ids, list(self.objects))] = "standing"
+        carried = []
+        for instance in set(np.unique(ids)) - self.objects - {0}:
+            body = self.about(flight, frame).get(instance)
+            if body and instance in self.about(flight, other):
                 mask = ids == instance
-                at[mask] = moved(at[mask], body, later)
                 kinds[mask] = "person" if body["kind"] == "pedestrian" else "vehicle"
                 kinds[mask & (labels == RIDER)] = "rider"
-            end, ahead = project(at, there, lens)
-            return end - lens.bend(centre), kinds, end, ahead
+                carried += [(instance, strip, mask & (own == strip)) for strip in np.unique(own[mask])]
 
-        expected, kinds, end, ahead = ways(depth)
-        nearer = ways(depth - STEP_M)[0]
+        def ways(depth_m, strip):
+            at = from_ + np.minimum(depth_m, 1e9)[..., None] * ray
+            for instance, its, mask in carried:
+                at[mask] = moved(at[mask], around[its][instance], around_there[strip][instance])
+            end, ahead, row = project(at, there[strip], lens)
+            return end - lens.bend(centre), end, ahead, self.shutter.strip(row) == strip, self.shutter.is_edge(strip, row)
+
+        # The row of the end tells its moment, and the moment tells the row: every strip is tried, and the nearest of those that agree counts.
+        expected, end, ahead = np.full(flow.shape, np.nan), np.full(flow.shape, np.nan), np.full(depth.shape, np.nan)
+        nearer, least = np.full(flow.shape, np.nan), np.full(depth.shape, np.inf)
+        at_edge = np.zeros(depth.shape, bool)
+        for strip in range(len(offsets)):
+            ways_, ends, aheads, is_there, is_edge = ways(depth, strip)
+            at_edge |= is_edge
+            off = np.where(is_there, np.linalg.norm(flow - ways_, axis=-1), np.inf)
+            chosen = off < least
+            nearer[chosen] = ways(depth - STEP_M, strip)[0][chosen]
+            least[chosen], expected[chosen], end[chosen], ahead[chosen] = off[chosen], ways_[chosen], ends[chosen], aheads[chosen]
+        kinds[at_edge] = ""
+        if (valid[np.isnan(ahead) & (kinds == "standing")] == 1).any():
+            self.wrong.append(f"{place}: the mask says that points are seen which no row shows at its moment")
         error = np.linalg.norm(flow - expected, axis=-1)
         allowed = MOST_PX + 1e-4 * np.linalg.norm(expected, axis=-1) + 1.5 * np.linalg.norm(nearer - expected, axis=-1)
         limb = LIMB_MPS * flight["dt_s"] * lens.focal / np.maximum(ahead - 1, 0.5)
@@ -158,10 +237,9 @@ class Judge:
 
 
 given = command_line("folder", least_pixels=10_000, plant=str)
-require(given.plant in (None, "scale", "sign", "swap", "frame"), f"--plant `{given.plant}` is none of scale, sign, swap and frame")
+require(given.plant in SPOILT_FLOWS or given.plant in SPOILT_SHUTTERS, f"--plant `{given.plant}` is none of {[*SPOILT_FLOWS][1:] + [*SPOILT_SHUTTERS]}")
 judge = Judge(given.folder, given.plant)
 for flight in judge.flights.values():
-    require(not flight["camera_readout_s"], "it has a rolling shutter, whose rows the tables do not place")
     judge.flight(flight)
 counts, worst = judge.counts, {kind: round(error, 4) for kind, error in judge.worst.items()}
 print(", ".join(f"{name} {count}" for name, count in counts.items()), "| worst beyond the depth's step, px:", worst)

@@ -73,7 +73,13 @@ class Copy:
         path = next(path for path in sorted((self.folder / "mcap").glob("*/*/*.mcap")) if self.rewrite(path, topic, change))
         self.changed.add(path)
 
-    def rewrite(self, path, topic, change):
+    def metadata(self, name, change):
+        """Changes the entries of a record of metadata in every log."""
+        for path in sorted((self.folder / "mcap").glob("*/*/*.mcap")):
+            self.rewrite(path, None, None, {name: change})
+            self.changed.add(path)
+
+    def rewrite(self, path, topic, change, of_metadata={}):
         from mcap.reader import make_reader
         from mcap.writer import Writer
         from mcap_protobuf.decoder import DecoderFactory
@@ -81,12 +87,11 @@ class Copy:
         with open(path, "rb") as file:
             reader = make_reader(file, decoder_factories=[DecoderFactory()])
             summary = reader.get_summary()
-            if topic not in [channel.topic for channel in summary.channels.values()]:
+            if topic and topic not in [channel.topic for channel in summary.channels.values()]:
                 return False
             former = []
             spoilt = {}
-            for schema, channel, message, decoded in reader.iter_decoded_messages([topic]):
-                key = message.sequence, message.log_time, len(former)
+            for schema, channel, message, decoded in reader.iter_decoded_messages([topic]) if topic else ():
                 former.append(type(decoded).FromString(message.data))
                 time_ns = change(decoded, len(former) - 1, former)
                 spoilt[len(former) - 1] = (decoded.SerializeToString(), message.log_time if time_ns is None else time_ns)
@@ -99,7 +104,7 @@ class Copy:
                 channels = {id: writer.register_channel(topic=it.topic, message_encoding=it.message_encoding, schema_id=schemas[it.schema_id],
                                                         metadata=it.metadata) for id, it in summary.channels.items()}
                 for metadata in reader.iter_metadata():
-                    writer.add_metadata(metadata.name, metadata.metadata)
+                    writer.add_metadata(metadata.name, of_metadata.get(metadata.name, dict)(metadata.metadata))
                 number = 0
                 for schema, channel, message in reader.iter_messages(log_time_order=False):
                     data, time_ns = message.data, message.log_time
@@ -271,6 +276,20 @@ def half_a_second_later(message, number, former):
         setattr(message, name, getattr(former[max(number - 100, 0)], name))
 
 
+def readout(factor, is_in_log=True):
+    """Another read-out of the rolling shutter, in the table and in the logs; 0: none."""
+    def of_log(about):
+        offsets = [factor * it for it in json.loads(about["readout_offsets_s"])]
+        kept = {name: it for name, it in about.items() if factor or not name.startswith("readout")}
+        return kept | ({"readout_offsets_s": json.dumps(offsets), "readout_s": str(factor * float(about["readout_s"]))} if factor else {"readout_s": "0"})
+
+    def both(copy):
+        copy.table("trajectories", scale(factor, "camera_readout_s"))
+        if is_in_log:
+            copy.metadata("cosfly.camera", of_log)
+    return both
+
+
 FORCE, RATE = [f"force_{a}_mps2" for a in "xyz"], [f"rate_{a}_rad_s" for a in "xyz"]
 FIELD = [f"field_{a}_ut" for a in "xyz"]
 IMAGES = {
@@ -349,33 +368,47 @@ FAULTS = {
 }
 
 
+ROLLED = {
+    "read-out of the wrong sign": readout(-1),
+    "read-out of double length": readout(2),
+    "no read-out": readout(0),
+    "read-out of the table alone": readout(1.01, False),
+    **{f"rolled {name}": image(*IMAGES[name]) for name in IMAGES if "flow" in name},
+}
+
+
+def missed(cosfly, dataset, folder, faults):
+    """Faults of a dataset that nobody finds."""
+    for name, plant in faults.items():
+        copy = Copy(dataset, folder)
+        plant(copy)
+        require(copy.changed, f"`{name}` changed nothing")
+        copy.seal()
+        done = subprocess.run([cosfly, "verify", copy.folder, "--json"], capture_output=True, text=True)
+        findings = json.loads(done.stdout)["findings"]
+        rules = {re.search(r"\[(verify-[a-z0-9-]+)\]", line).group(1) for line in findings}
+        require(not rules & {"verify-hash", "verify-size", "verify-extra-file", "verify-croissant", "verify-crc"}, f"`{name}` is badly sealed: {findings[:2]}")
+        if rules:
+            said(name, f"{len(findings)} {sorted(rules)} {findings[0][:160]}")
+        else:
+            print("MISSED", name, flush=True)
+            yield f"not found: {name}"
+
+
 def main():
     given = command_line("cosfly folder", only=str, dataset=Path)
     folder, wrong = given.folder.resolve(), []
     folder.mkdir(parents=True, exist_ok=True)
-    dataset = given.dataset or folder / "sound"
-    if not dataset.exists():
-        recipe = Path(__file__).with_name("sensors.toml")
-        run(given.cosfly, "run", recipe, "--out", dataset, "--store", folder / "store", "--quiet")
-    run(given.cosfly, "verify", dataset)
-    found = 0
-    for name, plant in FAULTS.items():
-        if given.only and given.only not in name:
+    recipe = Path(__file__).with_name("sensors.toml")
+    rolled = ["stages.street.frames=6", "stages.street.follow.count=1", "stages.frames.rolling_shutter.readout_s=0.06", "stages.dataset.inputs.extras=[]"]
+    for name, options, faults in (("sound", [], FAULTS), ("rolled", rolled, ROLLED)):
+        if given.dataset and name == "rolled":
             continue
-        copy = Copy(dataset, folder / "planted")
-        plant(copy)
-        require(copy.changed, f"`{name}` changed nothing")
-        copy.seal()
-        done = subprocess.run([given.cosfly, "verify", copy.folder, "--json"], capture_output=True, text=True)
-        findings = json.loads(done.stdout)["findings"]
-        rules = {re.search(r"\[(verify-[a-z0-9-]+)\]", line).group(1) for line in findings}
-        require(not rules & {"verify-hash", "verify-size", "verify-extra-file", "verify-croissant", "verify-crc"}, f"`{name}` is badly sealed: {findings[:2]}")
-        if not rules:
-            wrong.append(f"not found: {name}")
-            print("MISSED", name, flush=True)
-        else:
-            found += 1
-            said(name, f"{len(findings)} {sorted(rules)} {findings[0][:160]}")
+        dataset = given.dataset or folder / name
+        if not dataset.exists():
+            run(given.cosfly, "run", recipe, "--out", dataset, "--store", folder / "store", "--quiet", *[word for it in options for word in ("--set", it)])
+        run(given.cosfly, "verify", dataset)
+        wrong += missed(given.cosfly, dataset, folder / "planted", {fault: it for fault, it in faults.items() if not given.only or given.only in fault})
     end_with(wrong)
 
 
