@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as parquet
-from shared import command_line, end_with, pixels, require, run, said
+from shared import command_line, end_with, messages, pixels, require, rows, run, said
 
 POINT = np.dtype([("place", "<f4", 3), ("intensity", "<f4"), ("time", "<f4"), ("ring", "<u2"), ("label", "<u2"), ("instance", "<u4")])
 
@@ -210,6 +210,19 @@ def image(channel, change):
     return lambda copy: copy.log(f"/camera/{channel}/image", of_message)
 
 
+def flow_of_bodies(copy):
+    """Halves the flow of people and vehicles; that of what stands stays."""
+    path = next(path for path in sorted((copy.folder / "mcap").glob("*/*/*.mcap")))
+    ids = [pixels(it) for _, it, *_ in messages(path, ["/camera/instance/image"])]
+    standing = [0, *(row["instance"] for row in rows(copy.folder, "objects", ["instance"]))]
+
+    def change(message, number, former):
+        flow = pixels(message).copy()
+        flow[~np.isin(ids[number], standing)] *= 0.5
+        message.data = flow.tobytes()
+    copy.log("/camera/flow_forward/image", change)
+
+
 def cloud(name, change):
     """Changes the points of each sweep of a table, and of its log."""
     def of_table(columns):
@@ -321,6 +334,7 @@ IMAGES = {
 }
 FAULTS = {
     **{name: image(*what) for name, what in IMAGES.items()},
+    "flow of bodies halved": flow_of_bodies,
     "inertial: x and z of the force swapped": sensor("inertial_unit", swap(FORCE[::2])),
     "inertial: y and z of the rates and their truth swapped": sensor("inertial_unit", swap(RATE[1:], [f"true_{it}" for it in RATE[1:]])),
     "inertial: rate z flipped": sensor("inertial_unit", scale(-1, RATE[2])),
@@ -374,6 +388,7 @@ ROLLED = {
     "no read-out": readout(0),
     "read-out of the table alone": readout(1.01, False),
     **{f"rolled {name}": image(*IMAGES[name]) for name in IMAGES if "flow" in name},
+    "rolled flow of bodies halved": flow_of_bodies,
 }
 
 
