@@ -41,8 +41,10 @@ const BEYOND: &[(&str, &[&str], &str)] = &[
     ("cosfly-planner", &["cosfly-scenes"], "tests: seeded streets"),
     ("cosfly-report", &["cosfly-captions"], "counts what texts say"),
     ("cosfly-sample", &["cosfly-captions", "cosfly-figures", "cosfly-planner"], "makes a dataset for tests"),
+    ("cosfly-verify", &["cosfly-optics"], "places rows of a rolling shutter at their moments"),
     ("cosfly-verify", &["cosfly-sensors"], "casts points of lidars again from the airframe of their time"),
     ("cosfly-write", &["cosfly-captions"], "words goals, phrases and instructions of windows"),
+    ("cosfly-write", &["cosfly-optics"], "tells logs when rows of a rolling shutter were taken"),
 ];
 
 /// All rooms by their names, from the resolved graph and from what manifests declare (the graph lacks what features leave out).

@@ -91,28 +91,6 @@ impl Lens {
         *self == Self::default()
     }
 
-    /// Columns and rows by which the ideal picture of a camera goes beyond each edge of the finished one, so that it has every place that a
-    /// pixel shows. A lens that is not wide.
-    pub fn margins_px(&self, camera: &Camera) -> [u32; 2] {
-        if self.is_none() {
-            return [0; 2];
-        }
-        let (cx, cy, _) = camera.centre_and_focal_px();
-        let unbend = |(column, row): (u32, u32)| {
-            let seen = (f64::from(column) + 0.5, f64::from(row) + 0.5);
-            self.unbend(camera, seen).unwrap_or(seen)
-        };
-        let (mut reach_u, mut reach_v) = (cx, cy);
-        let (last_column, last_row) = (camera.width.saturating_sub(1), camera.height.saturating_sub(1));
-        let rows = (0..camera.height).flat_map(|row| [(0, row), (last_column, row)]);
-        for pixel in rows.chain((0..camera.width).flat_map(|column| [(column, 0), (column, last_row)])) {
-            let (u, v) = unbend(pixel);
-            reach_u = reach_u.max((u - cx).abs() + 1.0);
-            reach_v = reach_v.max((v - cy).abs() + 1.0);
-        }
-        [(reach_u, cx), (reach_v, cy)].map(|(reach, half)| (reach - half).ceil().clamp(0.0, 4.0 * half) as u32)
-    }
-
     /// The numbers that calibrations of this model have.
     pub fn coefficients(&self) -> Vec<f64> {
         match self.model {

@@ -41,7 +41,7 @@ pub use motion_blur::MotionBlur;
 pub use noise::Noise;
 pub use optics::Optics;
 pub use oriented_box::OrientedBox;
-pub use rolling_shutter::{ReadoutStrips, RollingShutter};
+pub use rolling_shutter::RollingShutter;
 pub use season::Season;
 pub use semantics::SemanticLabel;
 pub use town::{

@@ -4,8 +4,9 @@
 
 use super::bodies::PlacedBody;
 use super::rows::{PlacedFlight, PlacedFrame};
-use cosfly_domain::{ReadoutStrips, TARGET_INSTANCE};
+use cosfly_domain::TARGET_INSTANCE;
 use cosfly_frames::{DVec3, Pose, real};
+use cosfly_optics::ReadoutStrips;
 
 /// Rows from the edge of two strips within which the step of the depth decides in which one a place is.
 const EDGE_PX: f64 = 0.05;

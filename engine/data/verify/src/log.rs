@@ -12,13 +12,12 @@ use super::rows::{PlacedFlight, PlacedFrame};
 use ::mcap::records::Record;
 use cosfly_diagnose::{Stop, counted};
 use cosfly_domain::channels::{ChannelSource, Element, depth, flow};
-use cosfly_domain::{BodyKind, Channel, ChannelSet, ReadoutStrips, SemanticLabel, TARGET_INSTANCE, channels};
+use cosfly_domain::{BodyKind, Channel, ChannelSet, SemanticLabel, TARGET_INSTANCE, channels};
 use cosfly_frames::{DQuat, DVec3};
+use cosfly_optics::{READOUT_KEYS, ReadoutStrips};
 use cosfly_read::read_records;
 use cosfly_schema::log::messages::shift_px;
-use cosfly_schema::log::{
-    BODIES_3D_ROWS, Frequency, READOUT_ENDS, READOUT_OFFSETS, TargetStateMessage, formats, right_handed, topic, topics,
-};
+use cosfly_schema::log::{BODIES_3D_ROWS, Frequency, TargetStateMessage, formats, right_handed, topic, topics};
 use foxglove::messages;
 use prost::Message;
 use std::collections::{BTreeMap, BTreeSet};
@@ -138,7 +137,8 @@ impl LogCheck<'_> {
             }
             Record::Metadata(metadata) if metadata.name == "cosfly.camera" => {
                 let text = |key: &str| metadata.metadata.get(key).map(String::as_str);
-                match readout_of(self.flight, text(READOUT_ENDS), text(READOUT_OFFSETS)) {
+                let [ends, offsets] = READOUT_KEYS.map(text);
+                match readout_of(self.flight, ends, offsets) {
                     Ok(readout) => self.readout = readout,
                     Err(message) => self.find(String::new(), "verify-camera", message),
                 }

@@ -1,9 +1,9 @@
 //! Settings of pictures among the parameters of a stage that films.
 
 use cosfly_diagnose::ParameterError;
-use cosfly_render::RenderConfig;
+use cosfly_render::{CameraConfig, RenderConfig};
 use cosfly_schema::EncodingConfig;
-use cosfly_stage::parameters;
+use cosfly_stage::{StageNeed, parameters};
 
 /// Key of the settings of encoding.
 pub const ENCODING: &str = "encoding";
@@ -14,4 +14,18 @@ pub const ENCODING: &str = "encoding";
 /// Parameters that the schema cannot express.
 pub fn read(parameters: serde_json::Value) -> Result<(RenderConfig, EncodingConfig), ParameterError> {
     parameters::read_joined(parameters, ENCODING)
+}
+
+/// A film begins before its second picture: offsets of cameras are less than the time from one picture to the next.
+pub fn needs_of_offsets(config: &RenderConfig) -> Vec<StageNeed> {
+    let need = |(name, camera): (&String, &CameraConfig)| {
+        Some(StageNeed::LessThan {
+            parameter: format!("cameras.{name}.offset_s"),
+            number: camera.offset_s.filter(|offset_s| *offset_s > 0.0)?,
+            port: "trajectories",
+            other: "dt_s",
+            times: f64::from(camera.every.unwrap_or(1).max(1)),
+        })
+    };
+    config.cameras.iter().filter_map(need).collect()
 }

@@ -22,12 +22,12 @@ use cosfly_film::rate::{FilmedFlight, filmed_around, filmed_flight};
 use cosfly_flight::World;
 use cosfly_frames::{Pose, Seed};
 use cosfly_geometry::SpatialQuery;
-use cosfly_render::{CameraConfig, Effects, FrameBeside, Moment, Neighbours, RenderConfig, Renderer, Scene, Shot};
+use cosfly_render::{Effects, FrameBeside, Moment, Neighbours, RenderConfig, Renderer, Scene, Shot};
 use cosfly_schema::tables::kind_name;
 use cosfly_schema::{EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo};
 use cosfly_stage::parameters;
 use cosfly_stage::{
-    InputPort, Inputs, ItemName, ItemRule, Need, Produced, Stage, StageKind, StagePart, StageProperties, StageRole,
+    InputPort, Inputs, ItemName, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, StageRole,
     TaskContext,
 };
 use cosfly_write::frame_pack::{FramePackWriter, PackHeader};
@@ -78,26 +78,12 @@ impl StageKind for Render {
             bytes_per_item: 200 * config.mean_pixels() * 3 / 4,
             files_per_item: 2,
             intermediate: &[PACK],
-            needs: needs_of_offsets(&config),
+            needs: pictures::needs_of_offsets(&config),
             ..StageProperties::new(self.name(), StageRole::Films, FRAMES)
         };
         let stage = RenderStage { config, encoding, properties, scene: Memo::default(), idle: Mutex::default() };
         Ok(vec![nearby, StagePart { suffix: "", stage: Box::new(stage) }])
     }
-}
-
-/// A film begins before its second picture: offsets of cameras are less than the time from one picture to the next.
-fn needs_of_offsets(config: &RenderConfig) -> Vec<Need> {
-    let need = |(name, camera): (&String, &CameraConfig)| {
-        Some(Need::LessThan {
-            parameter: format!("cameras.{name}.offset_s"),
-            number: camera.offset_s.filter(|offset_s| *offset_s > 0.0)?,
-            port: "trajectories",
-            other: "dt_s",
-            times: f64::from(camera.every.unwrap_or(1).max(1)),
-        })
-    };
-    config.cameras.iter().filter_map(need).collect()
 }
 
 /// Parameters for keys. A paired item is named after its own weather and reads no other: one more weather renders no old

@@ -19,7 +19,7 @@ use cosfly_schema::flight_table::{ColumnKind, DeclaredColumn, MOST_ROWS, Values}
 use cosfly_sensors::{Carrier, GeoOrigin, SenseConfig, SensedFlight, Sensor};
 use cosfly_stage::parameters;
 use cosfly_stage::{
-    InputPort, Inputs, ItemRule, Need, Produced, Stage, StageKind, StagePart, StageProperties, StageRole, Takes,
+    InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StageNeed, StagePart, StageProperties, StageRole, Takes,
     TaskContext,
 };
 use cosfly_write::unread;
@@ -85,8 +85,9 @@ pub fn flight_ports() -> Vec<InputPort> {
 }
 
 /// What the key `camera` of a sensor needs: a film of that camera.
-pub fn needs_camera(camera: Option<&str>) -> Vec<Need> {
-    let need = |name: &str| Need::Variant { parameter: "camera".to_owned(), port: "frames", name: name.to_owned() };
+pub fn needs_camera(camera: Option<&str>) -> Vec<StageNeed> {
+    let need =
+        |name: &str| StageNeed::Variant { parameter: "camera".to_owned(), port: "frames", name: name.to_owned() };
     camera.map(need).into_iter().collect()
 }
 

@@ -3,7 +3,7 @@
 use crate::document::list;
 use crate::model::{Connection, RecipeStage};
 use cosfly_diagnose::{ParameterError, nearest_name};
-use cosfly_stage::Need;
+use cosfly_stage::StageNeed;
 use cosfly_stage::parameters::refused_at;
 use std::collections::BTreeSet;
 
@@ -11,10 +11,14 @@ use std::collections::BTreeSet;
 ///
 /// # Errors
 /// The first need that is not met, at its parameter.
-pub(crate) fn check(needs: &[Need], connections: &[Connection], done: &[RecipeStage]) -> Result<(), ParameterError> {
+pub(crate) fn check(
+    needs: &[StageNeed],
+    connections: &[Connection],
+    done: &[RecipeStage],
+) -> Result<(), ParameterError> {
     needs.iter().try_for_each(|need| match need {
-        Need::Variant { parameter, port, name } => variant((parameter, port), name, connections, done),
-        Need::LessThan { parameter, number, port, other, times } => {
+        StageNeed::Variant { parameter, port, name } => variant((parameter, port), name, connections, done),
+        StageNeed::LessThan { parameter, number, port, other, times } => {
             let theirs = above_port(port, connections, done).into_iter().map(|index| &done[index]);
             let parameter_of = |stage: &RecipeStage| stage.stage.properties().parameters.get(*other)?.as_f64();
             let bounds = theirs.filter_map(|stage| Some((stage, times * parameter_of(stage)?)));

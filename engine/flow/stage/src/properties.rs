@@ -37,7 +37,7 @@ pub struct StageProperties {
     /// item. Not part of the key.
     pub gives: Option<String>,
     /// What the stage asks of those that it reads; not part of the key.
-    pub needs: Vec<Need>,
+    pub needs: Vec<StageNeed>,
     /// Role of the stage; not part of the key.
     pub role: StageRole,
     /// Resources of one item, for engines on other machines; not part of the key.
@@ -69,7 +69,7 @@ impl StageProperties {
 
 /// What a parameter asks of the stages at a port: checked with the recipe, before anything is made.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Need {
+pub enum StageNeed {
     /// Some item at the port is a variant of this name.
     Variant {
         /// The parameter, keys joined by dots.

@@ -20,12 +20,6 @@ pub use topic::{Frequency, Topic, flown_topics, topics};
 /// Key of the record `cosfly.trajectory` of flights with rows in table `bodies_3d`: their number.
 pub const BODIES_3D_ROWS: &str = "bodies_3d_rows";
 
-/// Keys of the record `cosfly.camera` of films with a rolling shutter, a list of numbers each: lower edge of each strip of rows that are taken
-/// together, rows of the picture without its lens; and moment of each, seconds from the frame's time.
-pub const READOUT_ENDS: &str = "readout_ends_px";
-/// See [`READOUT_ENDS`].
-pub const READOUT_OFFSETS: &str = "readout_offsets_s";
-
 /// Times of the frames of a film, after the beginning of its flight.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrameTimes {

@@ -2,8 +2,9 @@
 
 use crate::frame_pack::PackHeader;
 use cosfly_domain::channels::instance;
-use cosfly_domain::{BodyKindRow, Obstacle, ReadoutStrips, SemanticLabel, TARGET_INSTANCE, Town, object_instance};
-use cosfly_schema::log::{BODIES_3D_ROWS, READOUT_ENDS, READOUT_OFFSETS};
+use cosfly_domain::{BodyKindRow, Obstacle, SemanticLabel, TARGET_INSTANCE, Town, object_instance};
+use cosfly_optics::{READOUT_KEYS, ReadoutStrips};
+use cosfly_schema::log::BODIES_3D_ROWS;
 use cosfly_schema::tables::kind_name;
 use cosfly_schema::{DepthEncoding, OtherBody, RenderedTrajectory};
 use serde::Serialize;
@@ -125,8 +126,8 @@ fn camera(record: &RenderedTrajectory) -> BTreeMap<String, String> {
     if !record.rolling_shutter.is_none() {
         // When each row was taken: flow and depth are of these moments.
         let strips = ReadoutStrips::of(&record.rolling_shutter, camera, &record.lens);
-        all.insert(READOUT_ENDS.to_owned(), format!("{:?}", strips.ends_px));
-        all.insert(READOUT_OFFSETS.to_owned(), format!("{:?}", strips.offsets_s));
+        let lists = [&strips.ends_px, &strips.offsets_s].map(|list| format!("{list:?}"));
+        all.extend(READOUT_KEYS.map(str::to_owned).into_iter().zip(lists));
     }
     if record.begins_ns > 0 {
         all.insert("offset_s".to_owned(), record.times().s(0).to_string());

@@ -3,6 +3,7 @@
 use super::views::{AHEAD, View, views};
 use cosfly_domain::{Camera, ChannelImage, FrameImages, Lens};
 use cosfly_frames::{DVec3, real};
+use cosfly_optics::margins_px;
 
 /// Pixels of a view beyond its quarter: what is blurred and sampled across an edge is in both views.
 const MARGIN_PX: u32 = 8;
@@ -52,7 +53,7 @@ impl LensMap {
             let seen = (f64::from(column) + 0.5, f64::from(row) + 0.5);
             lens.unbend(&camera, seen).unwrap_or(seen)
         };
-        let [margin_u, margin_v] = lens.margins_px(&camera);
+        let [margin_u, margin_v] = margins_px(&lens, &camera);
         let ideal = Camera {
             width: camera.width + 2 * margin_u,
             height: camera.height + 2 * margin_v,
