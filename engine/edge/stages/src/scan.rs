@@ -2,7 +2,7 @@
 
 use crate::ports::EXTRAS;
 use crate::rejections::handed_on;
-use crate::sense::{flight_ports, needs_camera, people, put};
+use crate::sense::{flight_ports, people, put};
 use crate::single;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
@@ -64,7 +64,7 @@ impl StageKind for Scan {
             bytes_per_item: 200_000_000,
             files_per_item: 2,
             gives: Some(source.name.clone()),
-            needs: needs_camera(config.camera.as_deref()),
+            needs: cosfly_experts::pictures::needs_camera(config.camera.as_deref()),
             ..StageProperties::new(self.name(), StageRole::Speaks, EXTRAS)
         };
         Ok(single(ScanStage { config, pattern, source, properties, scene: Memo::default() }))

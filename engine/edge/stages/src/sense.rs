@@ -19,8 +19,7 @@ use cosfly_schema::flight_table::{ColumnKind, DeclaredColumn, MOST_ROWS, Values}
 use cosfly_sensors::{Carrier, GeoOrigin, SenseConfig, SensedFlight, Sensor};
 use cosfly_stage::parameters;
 use cosfly_stage::{
-    InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StageNeed, StagePart, StageProperties, StageRole, Takes,
-    TaskContext,
+    InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, StageRole, Takes, TaskContext,
 };
 use cosfly_write::unread;
 use std::collections::{BTreeMap, BTreeSet};
@@ -68,7 +67,7 @@ impl StageKind for Sense {
             bytes_per_item: 20_000,
             files_per_item: 2,
             gives: Some(source.name.clone()),
-            needs: needs_camera(config.camera.as_deref()),
+            needs: cosfly_experts::pictures::needs_camera(config.camera.as_deref()),
             ..StageProperties::new(self.name(), StageRole::Speaks, EXTRAS)
         };
         Ok(single(SenseStage { config, sensor, source, properties }))
@@ -82,13 +81,6 @@ pub fn flight_ports() -> Vec<InputPort> {
     let frames = InputPort { takes: Takes::Distinct, ..ports::each("frames", FRAMES, false, doc) };
     let others = InputPort { optional: true, ..ports::gather("others", WALK, true, others) };
     vec![ports::town(), ports::without_pictures(frames), others]
-}
-
-/// What the key `camera` of a sensor needs: a film of that camera.
-pub fn needs_camera(camera: Option<&str>) -> Vec<StageNeed> {
-    let need =
-        |name: &str| StageNeed::Variant { parameter: "camera".to_owned(), port: "frames", name: name.to_owned() };
-    camera.map(need).into_iter().collect()
 }
 
 /// The table of a sensor: frame and time, then its numbers and the true ones.
