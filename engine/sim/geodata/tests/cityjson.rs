@@ -169,7 +169,7 @@ fn sequences_are_read_feature_by_feature() {
     assert_eq!(heights_m(&town, ObstacleKind::Building), [(0.0, 5.0), (0.0, 9.0)]);
     assert!(town.walkable.iter().all(|polygon| polygon.kind == WalkableKind::Plaza && polygon.synthetic));
     assert!(town.synthetic.notes.iter().any(|note| note.contains("plazas")), "{:?}", town.synthetic.notes);
-    assert!(town.synthetic.notes.iter().any(|note| note.contains("storeys")), "{:?}", town.synthetic.notes);
+    assert!(town.synthetic.notes.iter().any(|note| note.contains("storey counts")), "{:?}", town.synthetic.notes);
     let lines: Vec<&str> = SEQUENCE.lines().collect();
     let system = "\"CityJSONFeature\",\"metadata\":{\"referenceSystem\":\"EPSG:25832\"},";
     let error = read(&SEQUENCE.replacen("\"CityJSONFeature\",\"id\":\"b\",", system, 1)).unwrap_err();

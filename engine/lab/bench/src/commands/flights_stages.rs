@@ -6,7 +6,7 @@ use cosfly_experts::{artifacts, codec};
 use cosfly_sample::ManyFlights;
 use cosfly_schema::Role;
 use cosfly_stage::{
-    Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Registry, Resources, Sees, Stage, StageKind, StagePart,
+    Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Registry, Sees, Stage, StageKind, StagePart,
     StageProperties, StageRole, Takes, TaskContext,
 };
 use serde_json::{Value, json};
@@ -106,21 +106,14 @@ impl StageKind for Toy {
             Makes::Films => ("frames/4", ItemRule::PerInput("walks"), StageRole::Films),
         };
         let properties = StageProperties {
-            kind: self.name.to_owned(),
-            version: 1,
             // As in `pedestrians`, a higher count makes no old walk again.
             parameters: json!({}),
-            sources: vec![],
             inputs: self.ports(),
-            artifact,
             items,
             bytes_per_item: 10_000,
             files_per_item: 2,
             intermediate: if self.makes == Makes::Films { &["pack"] } else { &[] },
-            asks: None,
-            gives: None,
-            role,
-            resources: Resources::default(),
+            ..StageProperties::new(self.name, role, artifact)
         };
         let stage = ToyStage { makes: self.makes, samples: Arc::clone(&self.samples), properties };
         Ok(vec![StagePart { suffix: "", stage: Box::new(stage) }])
