@@ -19,18 +19,15 @@ RIGHT = json.dumps(dict.fromkeys(cosfly.vlm.ACTION, 1.5))
 RAMBLING = f"Sure! ```json\n{RIGHT}\n``` The target walks."
 
 
-@pytest.fixture
-def model(monkeypatch):
-    """A model whose texts are the list that it gives, over and over; requests are kept."""
-    texts, asked = [RIGHT], []
+def serve(answer):
+    """A server whose status and text `answer` gives for a path, a key and a request."""
 
     class Handler(BaseHTTPRequestHandler):
         def do_POST(self):
             body = json.loads(self.rfile.read(int(self.headers["Content-Length"])))
-            asked.append((self.path, self.headers["Authorization"], body))
-            answer = {"choices": [{"message": {"content": texts[(len(asked) - 1) % len(texts)]}}]}
-            data = json.dumps(answer).encode()
-            self.send_response(200)
+            status, text = answer(self.path, self.headers["Authorization"], body)
+            data = json.dumps({"choices": [{"message": {"content": text}}]}).encode()
+            self.send_response(status)
             self.send_header("Content-Length", str(len(data)))
             self.end_headers()
             self.wfile.write(data)
@@ -40,6 +37,19 @@ def model(monkeypatch):
 
     server = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
     threading.Thread(target=server.serve_forever, daemon=True).start()
+    return server
+
+
+@pytest.fixture
+def model(monkeypatch):
+    """A model whose texts are the list that it gives, over and over; requests are kept."""
+    texts, asked = [RIGHT], []
+
+    def answer(path, key, body):
+        asked.append((path, key, body))
+        return 200, texts[(len(asked) - 1) % len(texts)]
+
+    server = serve(answer)
     monkeypatch.setenv("COSFLY_VLM_URL", f"http://127.0.0.1:{server.server_port}/v1/")
     monkeypatch.setenv("COSFLY_VLM_MODEL", "small-vlm")
     monkeypatch.setenv("COSFLY_API_KEY", KEY)
@@ -102,21 +112,7 @@ def test_a_missing_number_is_named(model, monkeypatch, capsys):
 @pytest.mark.parametrize("status", [429, 500, 503])
 def test_a_busy_server_is_asked_again(status, monkeypatch):
     statuses = [status, status, 200]
-
-    class Handler(BaseHTTPRequestHandler):
-        def do_POST(self):
-            self.rfile.read(int(self.headers["Content-Length"]))
-            data = json.dumps({"choices": [{"message": {"content": RIGHT}}]}).encode()
-            self.send_response(statuses.pop(0))
-            self.send_header("Content-Length", str(len(data)))
-            self.end_headers()
-            self.wfile.write(data)
-
-        def log_message(self, *_):
-            pass
-
-    server = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
-    threading.Thread(target=server.serve_forever, daemon=True).start()
+    server = serve(lambda *_: (statuses.pop(0), RIGHT))
     monkeypatch.setenv("COSFLY_VLM_URL", f"http://127.0.0.1:{server.server_port}/v1")
     monkeypatch.setattr(cosfly.vlm, "_PAUSES_S", (0.01, 0.01))
     assert (cosfly.vlm.act(observation()) == 1.5).all() and not statuses

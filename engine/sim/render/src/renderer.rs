@@ -306,7 +306,10 @@ impl Renderer {
         let eye = Eye::new(&setup.pose);
         self.find_faces(scene, setup, &eye, &mut Stopwatch::new(None));
         self.shader.prepare(scene, setup, &eye, &self.people, &self.nearest);
-        self.find_albedo(scene, setup);
+        // A mesh with a light of its own has its colours later.
+        if scene.lit_mesh().is_some() {
+            self.find_albedo(scene, setup);
+        }
         self.fill_channels(scene, true);
     }
 

@@ -78,16 +78,25 @@ pub(super) fn tree<'a>(
     };
     let foot = (0.5 * (low + high)).with_z(low.z);
     let base_m = 0.35 * height_m;
-    let upright = |foot: DVec3, half_m: f64, height_m: f64| OrientedBox {
-        center_in_world: foot + 0.5 * height_m * DVec3::Z,
-        half_extents_m: DVec3::new(half_m, half_m, 0.5 * height_m),
-        yaw_rad: 0.0,
-    };
-    let trunk = upright(foot, (0.015 * height_m).clamp(0.08, 0.4), base_m);
+    let trunk = trunk(foot, height_m, base_m);
     let crown = upright(foot + base_m * DVec3::Z, radius_m, height_m - base_m);
     let crowns = crown_boxes(&crown, object_id).map(|shape| (ObstacleKind::TreeCrown, shape));
     let boxes = core::iter::once((ObstacleKind::TreeTrunk, trunk)).chain(crowns).collect();
     Some(Tree { boxes, is_assumed, is_absurd, unread })
+}
+
+/// A square box that stands on a place.
+fn upright(foot: DVec3, half_m: f64, height_m: f64) -> OrientedBox {
+    OrientedBox {
+        center_in_world: foot + 0.5 * height_m * DVec3::Z,
+        half_extents_m: DVec3::new(half_m, half_m, 0.5 * height_m),
+        yaw_rad: 0.0,
+    }
+}
+
+/// The trunk of a tree of a height, up to its lowest branches, metres.
+fn trunk(foot: DVec3, height_m: f64, branches_m: f64) -> OrientedBox {
+    upright(foot, (0.015 * height_m).clamp(0.08, 0.4), branches_m)
 }
 
 /// Boxes under faces that rise from the ground; [`grown`] makes plants of them.
@@ -124,32 +133,23 @@ pub(super) fn grown(boxes: Vec<OrientedBox>, base_m: f64) -> Vec<(ObstacleKind, 
         let height_m = top_m(&peak) - base_m;
         let radius_m = (CROWN_SHARE * height_m).clamp(CROWN_RADII_M[0], CROWN_RADII_M[1]);
         let [column, row] = cell(peak.center_in_world);
-        let cells = (column - 1..=column + 1).flat_map(|column| (row - 1..=row + 1).map(move |row| [column, row]));
+        let around = |at: i64| at.saturating_sub(1)..=at.saturating_add(1);
+        let cells = around(column).flat_map(|column| around(row).map(move |row| [column, row]));
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         for near in cells.filter_map(|cell| left.get(&cell)).flatten().copied() {
             let shape = &slender[near];
             let apart = (shape.center_in_world - peak.center_in_world).truncate();
             if !is_taken[near] && apart.length() <= radius_m {
                 is_taken[near] = true;
-                let half = half_bounds(shape);
-                low = low.min(shape.center_in_world.truncate() - half);
-                high = high.max(shape.center_in_world.truncate() + half);
+                let bounds = shape.bounds_in_world();
+                (low, high) = (low.min(bounds.0.truncate()), high.max(bounds.1.truncate()));
             }
         }
-        let half = (0.5 * (high - low)).max(DVec2::splat(CROWN_RADII_M[0]));
-        let foot_m = base_m + BRANCHES_M.min(0.5 * height_m);
-        let half_height_m = 0.5 * (top_m(&peak) - foot_m);
-        let crown = OrientedBox {
-            center_in_world: (0.5 * (low + high)).extend(foot_m + half_height_m),
-            half_extents_m: half.extend(half_height_m),
-            yaw_rad: 0.0,
-        };
-        let half_m = (0.015 * height_m).clamp(0.08, 0.4);
-        let trunk = OrientedBox {
-            center_in_world: peak.center_in_world.with_z(0.5 * (base_m + foot_m)),
-            half_extents_m: DVec3::new(half_m, half_m, 0.5 * (foot_m - base_m)),
-            yaw_rad: 0.0,
-        };
+        let (middle, half) = (0.5 * (low + high), (0.5 * (high - low)).max(DVec2::splat(CROWN_RADII_M[0])));
+        let branches_m = BRANCHES_M.min(0.5 * height_m);
+        let (foot_m, top_m) = (base_m + branches_m, base_m + height_m);
+        let crown = OrientedBox::from_corners((middle - half).extend(foot_m), (middle + half).extend(top_m));
+        let trunk = trunk(peak.center_in_world.with_z(base_m), height_m, branches_m);
         grown.extend([(ObstacleKind::TreeTrunk, trunk), (ObstacleKind::TreeCrown, crown)]);
     }
     grown
@@ -158,13 +158,6 @@ pub(super) fn grown(boxes: Vec<OrientedBox>, base_m: f64) -> Vec<(ObstacleKind, 
 /// Height of the upper side.
 fn top_m(shape: &OrientedBox) -> f64 {
     shape.center_in_world.z + shape.half_extents_m.z
-}
-
-/// Half the sides of the bounds in plan, metres.
-fn half_bounds(shape: &OrientedBox) -> DVec2 {
-    let (sin, cos) = real::sin_cos(shape.yaw_rad);
-    let DVec3 { x, y, .. } = shape.half_extents_m;
-    DVec2::new(x * cos.abs() + y * sin.abs(), x * sin.abs() + y * cos.abs())
 }
 
 /// A box cut across its longer side into pieces that are no longer than slender boxes are wide.
