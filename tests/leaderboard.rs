@@ -59,7 +59,10 @@ fn entries_are_ranked_within_what_was_verified_and_others_are_listed_with_the_re
         change(&mut other);
         std::fs::write(at(&format!("{name}.jsonl.zst")), other.bytes().expect("bytes")).expect("written");
     };
-    make("edited", &|it| it.episodes[0].row.score.tracked_steps += 1);
+    make("edited", &|it| {
+        it.episodes[0].row.score.tracked_steps += 1;
+        it.card.cosfly = "0.0.1".to_owned();
+    });
     make("elsewhere", &|it| it.card.suite.name = "elsewhere".to_owned());
     make("other", &|it| it.card.suite.hash = "0".repeat(64));
     make("longer", &|it| {
@@ -116,6 +119,10 @@ fn entries_are_ranked_within_what_was_verified_and_others_are_listed_with_the_re
     }
     let printed = leaderboard(street.path(), &[]);
     assert_eq!(printed.code, Some(1), "{}{}", printed.stdout, printed.stderr);
+    // Whoever looks for the cause sees which version flew the entry.
+    assert_eq!(suite["claimed"][0]["cosfly"], "0.0.1");
+    assert!(printed.stdout.contains("(flown by cosfly 0.0.1)"), "{}", printed.stdout);
+    assert!(page().windows(24).any(|it| it == b"flown by cosfly 0.0.1</p"), "the page names the version");
 }
 
 #[test]
@@ -365,6 +372,11 @@ fn a_held_out_suite_is_held_against_its_commitment() {
     std::fs::write(at("other.toml"), text.replace(seed, "seed = 5")).expect("written");
     let other = fly("other.toml", &published);
     assert!(other.code == Some(4) && other.stderr.contains("the commitment is"), "{}", other.stderr);
+    for none in ["", "0123", &"g".repeat(64)] {
+        std::fs::write(at("none.commitment"), none).expect("written");
+        let none = fly(&secret, "none.commitment");
+        assert!(none.code == Some(4) && none.stderr.contains("is no commitment"), "{}", none.stderr);
+    }
     // Somebody commits to a seed of their choice.
     let chosen = std::fs::read(at("other.toml")).expect("a recipe");
     let chosen = fly("other.toml", &cosfly_fingerprint::Digest::of(&chosen).to_string());

@@ -93,12 +93,18 @@ impl Subject {
             let message = format!("`{}` is a tier of a benchmark: `--commitment` is of a held-out suite", self.name);
             return Err(Diagnostic::new("fly-commitment", Fault::Recipe, message));
         };
-        let is_digest = commitment.len() == 64 && commitment.bytes().all(|digit| digit.is_ascii_hexdigit());
-        let published = match is_digest {
+        let is_digest = |text: &str| text.len() == 64 && text.bytes().all(|digit| digit.is_ascii_hexdigit());
+        let published = match is_digest(commitment) {
             true => commitment.to_owned(),
             false => std::fs::read_to_string(commitment)
                 .map_err(|error| Diagnostic::unread(format!("the commitment `{commitment}`"), &error))?,
         };
+        if !is_digest(published.trim()) {
+            let message =
+                format!("`{commitment}` is no commitment: it must hold 64 hexadecimal digits and nothing else");
+            let refusal = Diagnostic::new("fly-commitment", Fault::Input, message);
+            return Err(refusal.hint("give the file NAME.commitment that `cosfly fly commit` wrote, or its digits"));
+        }
         held_out::check(recipe, suite, published.trim())
     }
 

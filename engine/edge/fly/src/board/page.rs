@@ -1,7 +1,7 @@
 //! The page of a board: one file in HTML that opens offline, without a script.
 
 use super::standing::{Board, Contest, Refused, Standing};
-use super::table::{alike, differing};
+use super::table::{alike, differing, flown_by};
 use crate::results::{METRICS, Metric, MetricSummary, cell, ending, worst};
 use cosfly_diagnose::counted;
 use cosfly_plot::text::escaped;
@@ -211,7 +211,7 @@ fn failures(standing: &Standing) -> String {
         let (episode, rate) = (escaped(&short(&row.episode)), row.score.tracking_rate());
         let _ = write!(html, "<li>{episode}: {rate:.3}, {}</li>", escaped(&ending(row)));
     }
-    html.push_str("</ul>");
+    let _ = write!(html, "</ul><p class=\"note\">{}</p>", escaped(&short(&flown_by(standing))));
     if !entry.clip.is_empty() {
         let _ = write!(html, "<figure>{}<figcaption>{CLIP}</figcaption></figure>", entry.clip);
     }

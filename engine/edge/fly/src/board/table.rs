@@ -33,7 +33,7 @@ fn of_standing(it: &Standing) -> Value {
     let groups: Map<String, Value> = it.groups.iter().map(|(name, rate)| (name.clone(), json!(rate))).collect();
     let notes = &it.entry.notes;
     json!({
-        "rank": it.rank, "flies_as": it.alike.as_ref().map(|(file, episodes)| json!({ "file": file, "episodes": episodes })), "file": it.entry.file, "policy": policy.name, "version": policy.version, "kind": policy.kind,
+        "rank": it.rank, "flies_as": it.alike.as_ref().map(|(file, episodes)| json!({ "file": file, "episodes": episodes })), "file": it.entry.file, "policy": policy.name, "version": policy.version, "kind": policy.kind, "cosfly": it.entry.card.cosfly,
         "proof": it.entry.proof.word(), "differs": it.entry.proof.differs(), "sees": it.entry.sees.words,
         "latency": it.entry.card.latency(), "scores": of_summaries(&it.scores), "behind_first": behind,
         "tracking_rate_by_group": groups, "licence": notes.licence, "link": notes.link, "about": notes.about,
@@ -60,6 +60,11 @@ pub fn alike(it: &Standing) -> Option<String> {
     Some(format!("flies {episodes} of {all} exactly as the entry `{}`", one_line(file)))
 }
 
+/// The version of cosfly that the episodes were flown by, in words.
+pub fn flown_by(it: &Standing) -> String {
+    format!("flown by cosfly {}", it.entry.card.cosfly)
+}
+
 /// The board, for terminals.
 pub fn told(board: &Board) -> String {
     let mut text = String::new();
@@ -78,7 +83,7 @@ pub fn told(board: &Board) -> String {
                 let _ = writeln!(text, "      {words}");
             }
             if let Some(first) = it.entry.proof.differs().first() {
-                let _ = writeln!(text, "      {}: {}", differing(it), one_line(first));
+                let _ = writeln!(text, "      {}: {} ({})", differing(it), one_line(first), one_line(&flown_by(it)));
             }
         }
     }
