@@ -1,15 +1,18 @@
 //! Grounding: a line of JSON per frame: the target's box and visibility, why it is lost and where it comes back, and the expert's next steps.
 
+mod reason;
+
+use self::reason::{OUT_OF_VIEW, Shown, TOO_SMALL, named};
 use crate::card::ExportCard;
 use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::media::{ending, picture_path};
 use crate::sample_text::frame_facts;
-use crate::shared_options::PictureAndTextOptions;
+use crate::shared_options::{InstructionLanguage, PictureAndTextOptions};
 use crate::source::{ExportedFlight, Source};
 use cosfly_diagnose::Result;
 use cosfly_frames::{DVec3, action, real};
-use cosfly_read::{FrameRow, PublishedDataset, PublishedFlight, read};
+use cosfly_read::{FrameRow, PublishedDataset, PublishedFlight, SightingReader, read};
 use cosfly_schema::losses::cause;
 use cosfly_schema::tables::Objects;
 use serde_json::{Value, json};
@@ -20,8 +23,6 @@ use std::ops::Range;
 /// Boxes, visibility, steps and reasons.
 pub struct Grounding;
 
-/// Cause of a loss whose target is in the picture.
-const TOO_SMALL: &str = "smaller than a pixel";
 /// Number of steps of the expert.
 const STEPS: usize = 5;
 
@@ -31,9 +32,9 @@ impl Format for Grounding {
     type Options = PictureAndTextOptions;
 
     fn write(options: &PictureAndTextOptions, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
-        let kinds = kinds(source.dataset)?;
+        let mut kinds = Kinds::of(source.dataset)?;
         for split in source.splits() {
-            write_split(options, source, out, split, &kinds)?;
+            write_split(options, source, out, split, &mut kinds)?;
         }
         let mut front_matter = String::from("configs:\n- config_name: default\n  data_files:\n");
         for split in source.splits() {
@@ -44,21 +45,36 @@ impl Format for Grounding {
     }
 }
 
-/// Kinds of objects by town and instance id.
-type Kinds = BTreeMap<(String, u32), String>;
+/// Kinds of what can hide a target.
+struct Kinds {
+    /// Of objects, by town and instance id.
+    objects: BTreeMap<(String, u32), String>,
+    bodies: SightingReader,
+}
 
-fn kinds(dataset: &PublishedDataset) -> Result<Kinds> {
-    let mut kinds = Kinds::new();
-    for (_, path) in dataset.files("objects")? {
-        read(&path, &mut |rows| {
-            for row in 0..rows.len() {
-                let key = (rows.get(Objects::town, row)?, rows.get(Objects::instance, row)?);
-                kinds.insert(key, rows.get(Objects::kind, row)?);
-            }
-            Ok(())
-        })?;
+impl Kinds {
+    fn of(dataset: &PublishedDataset) -> Result<Self> {
+        let mut objects = BTreeMap::new();
+        for (_, path) in dataset.files("objects")? {
+            read(&path, &mut |rows| {
+                for row in 0..rows.len() {
+                    let key = (rows.get(Objects::town, row)?, rows.get(Objects::instance, row)?);
+                    objects.insert(key, rows.get(Objects::kind, row)?);
+                }
+                Ok(())
+            })?;
+        }
+        Ok(Self { objects, bodies: SightingReader::of(dataset)? })
     }
-    Ok(kinds)
+
+    /// Kinds of all that can hide the target of a flight, by instance id.
+    fn in_flight(&mut self, dataset: &PublishedDataset, flight: &PublishedFlight) -> Result<BTreeMap<u32, String>> {
+        let of_town = (flight.town.clone(), 0)..=(flight.town.clone(), u32::MAX);
+        let objects = self.objects.range(of_town).map(|((_, instance), kind)| (*instance, kind.clone()));
+        let place = dataset.place(&flight.trajectory_id).unwrap_or_default();
+        let bodies = self.bodies.at(dataset, place)?.iter().map(|body| (body.instance, body.kind.clone()));
+        Ok(objects.chain(bodies).collect())
+    }
 }
 
 fn write_split(
@@ -66,16 +82,19 @@ fn write_split(
     source: &Source<'_>,
     out: &OutFolder,
     split: &str,
-    kinds: &Kinds,
+    kinds: &mut Kinds,
 ) -> Result<()> {
+    let language = options.instructions.language;
     let name = format!("{split}.jsonl");
     let mut file = out.create(&name)?;
     let mut number = 0;
     source.each_flight_of(&|flight| flight.split == split, &mut |episode| {
         let (flight, rows) = (episode.flight, &episode.frames[..]);
-        let text = episode.instruction(options.instructions.language);
+        let text = episode.instruction(language);
         let expert = episode.expert_poses()?;
         let losses = losses(episode);
+        let kinds = kinds.in_flight(source.dataset, flight)?;
+        let named = |language, instance| named(language, kinds.get(&instance).map(String::as_str), instance);
         episode.each_picture(
             &episode.every_nth_frame(options.pictures.every),
             |frame, logged| {
@@ -91,9 +110,18 @@ fn write_split(
                 line["expert_steps_in_body"] =
                     poses.windows(2).map(|pair| json!(action::in_body(pair[0], pair[1]))).collect();
                 let loss = losses.iter().find(|loss| loss.frames.contains(&frame));
-                let named = |instance| named(kinds, &flight.town, instance);
-                line["loss"] = loss.map_or(Value::Null, |loss| loss.facts(rows, frame, flight.dt_s, &named));
-                line["reason"] = json!(reason(&rows[frame], &line["loss"], &named));
+                line["loss"] = loss.map_or(Value::Null, |loss| {
+                    loss.facts(rows, frame, flight.dt_s, &named(InstructionLanguage::En, loss.cause_instance))
+                });
+                let row = &rows[frame];
+                let shown = Shown {
+                    pixels: row.visible_pixels,
+                    hidden_percent: 100.0 * (1.0 - row.visible_by_pixels),
+                    hidden_by: (row.occluder_instance != 0).then(|| named(language, row.occluder_instance)),
+                    loss: &line["loss"],
+                    cause: loss.map_or_else(String::new, |loss| named(language, loss.cause_instance)),
+                };
+                line["reason"] = json!(shown.in_words(language));
                 Ok(line)
             },
             |_, line| writeln!(file, "{line}").map_err(|error| out.refusal(&name, &error)),
@@ -142,12 +170,13 @@ fn is_in_picture(flight: &PublishedFlight, row: &FrameRow) -> bool {
 
 impl Loss {
     /// The loss as frame `now` knows it in hindsight; where the target comes back is seen from the camera's pose now.
-    fn facts(&self, rows: &[FrameRow], now: usize, dt_s: f64, named: &dyn Fn(u32) -> String) -> Value {
+    /// `hidden_by` is what hides it in most frames, in words.
+    fn facts(&self, rows: &[FrameRow], now: usize, dt_s: f64, hidden_by: &str) -> Value {
         let is_most = |frames: usize| self.cause_instance == 0 && 2 * frames > self.frames.len();
         let cause = match () {
-            () if is_most(self.frames_too_small) => TOO_SMALL.to_owned(),
-            () if is_most(self.frames_out_of_view) => "out of view".to_owned(),
-            () => named(self.cause_instance),
+            () if is_most(self.frames_too_small) => TOO_SMALL,
+            () if is_most(self.frames_out_of_view) => OUT_OF_VIEW,
+            () => hidden_by,
         };
         let comes_back = rows.get(self.frames.end).map(|row| {
             let place = rows[now].camera_pose.body_from_world_point(row.target.feet_in_world);
@@ -173,47 +202,6 @@ fn tenths(value: f64) -> f64 {
     (10.0 * value).round() / 10.0 + 0.0
 }
 
-/// Words for what hides a target: trunk and crown are parts of one tree.
-fn named(kinds: &Kinds, town: &str, instance: u32) -> String {
-    match kinds.get(&(town.to_owned(), instance)).map(String::as_str) {
-        _ if instance == 0 => "the ground".into(),
-        Some("tree_trunk" | "tree_crown") => format!("tree {instance}"),
-        Some(kind) => format!("{} {instance}", kind.replace('_', " ")),
-        None => format!("body {instance}"),
-    }
-}
-
-/// The facts of a frame in words, with the numbers of the line.
-fn reason(row: &FrameRow, loss: &Value, named: &dyn Fn(u32) -> String) -> String {
-    if loss.is_null() {
-        let hidden = 100.0 * (1.0 - row.visible_by_pixels);
-        return match row.occluder_instance {
-            _ if row.visible_pixels == 0 => "The target has no body to see.".into(),
-            0 => "The target is in view.".into(),
-            instance => format!("The target is in view; {} hides {hidden:.0} % of it.", named(instance)),
-        };
-    }
-    let why = match loss["cause"].as_str() {
-        Some(cause @ ("out of view" | TOO_SMALL)) => format!("it is {cause}"),
-        cause => format!("{} hides it", cause.unwrap_or_default()),
-    };
-    let back = &loss["comes_back"];
-    let since = match loss["lost_for_s"].as_f64() {
-        Some(lost_for_s) if lost_for_s > 0.0 => format!("The target has been lost for {lost_for_s} s: {why}."),
-        _ => format!("The target is lost just now: {why}."),
-    };
-    if back.is_null() {
-        return format!("{since} It does not come back in this flight.");
-    }
-    let bearing_deg = back["bearing_deg"].as_f64().unwrap_or_default();
-    let way = match bearing_deg {
-        0.0 => "straight ahead of the camera".to_owned(),
-        _ if bearing_deg < 0.0 => format!("{} degrees to the left of the camera's axis", -bearing_deg),
-        _ => format!("{bearing_deg} degrees to the right of the camera's axis"),
-    };
-    format!("{since} It comes back in {} s, {} m away, {way}.", back["in_s"], back["distance_m"])
-}
-
 const BODY: &str = "\
 ```python
 import json
@@ -230,7 +218,7 @@ A line is a frame: path of the picture, facts of tables `trajectories` and `fram
 * `loss`: null, or the row of table `target_losses` with this `trajectory_id` and `start_frame`: what hides the target in most of its frames
   (`smaller than a pixel`: it is before the camera, and covers no pixel's middle), and where it comes back, from the camera's place now
   (metres to its feet, degrees right of the camera's axis along its picture); `comes_back` is null where the flight ends first;
-* `reason`: the same in words. All numbers in it are in the line. A policy does not know when a target comes back: it is what to learn.
+* `reason`: the same in words, in the language of the option `language`. All numbers in it are in the line. A policy does not know when a target comes back: it is what to learn.
 ";
 
 #[cfg(test)]
@@ -319,9 +307,17 @@ mod tests {
 
     #[test]
     fn every_number_of_a_reason_is_in_the_line() {
+        for (language, lost) in [("en", "lost"), ("zh", "丢失")] {
+            has_its_numbers(language, lost);
+        }
+    }
+
+    /// `lost` is the word that all losses have.
+    fn has_its_numbers(language: &str, lost: &str) {
         let (home, dataset) = published();
         let out = home.path().join("out");
-        export_with(&dataset, "grounding", Map::new(), &Choice::default(), &out).unwrap();
+        let options = Map::from_iter([("language".to_owned(), Value::from(language))]);
+        export_with(&dataset, "grounding", options, &Choice::default(), &out).unwrap();
         let written = files(&out);
         let mut lines = 0;
         for (path, bytes) in written.iter().filter(|(path, _)| path.extension().is_some_and(|it| it == "jsonl")) {
@@ -329,7 +325,7 @@ mod tests {
                 let row: Value = serde_json::from_str(line).unwrap();
                 assert!(written.contains_key(Path::new(row["image"].as_str().unwrap())), "{}: {line}", path.display());
                 let reason = row["reason"].as_str().unwrap();
-                assert_eq!(row["loss"].is_null(), !reason.contains("lost"), "{line}");
+                assert_eq!(row["loss"].is_null(), !reason.contains(lost), "{line}");
                 for fact in ["in_s", "distance_m"] {
                     let back = &row["loss"]["comes_back"][fact];
                     assert!(back.is_null() || reason.contains(&back.to_string()), "{line}");
