@@ -1,5 +1,6 @@
 //! [`VectorEnvironment`]: many environments that are stepped together, for learners.
 
+mod copies;
 mod member;
 mod outputs;
 mod team;
@@ -8,7 +9,7 @@ mod tests;
 
 use crate::suite::EpisodeTask;
 use cosfly_env::pictures::{PictureBatch, PictureFormat, Pictures};
-use cosfly_env::{Environment, EnvironmentSettings, Reward};
+use cosfly_env::{ActionNumber, Environment, EnvironmentSettings, Reward};
 use member::{Shared, VectorMember, stream_of};
 use outputs::Row;
 use rayon::prelude::*;
@@ -17,15 +18,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
+pub use copies::Copies;
 pub use member::{ACTIONS, Autoreset};
 pub use outputs::{StepOutputs, TERMS};
 pub use team::BESIDE;
 
 /// Fewest environments that one thread steps: below, handing them over takes longer.
 const FEWEST_A_THREAD: usize = 32;
-
-/// Bytes that one thread copies at a time.
-const COPIED_AT_ONCE: usize = 1 << 17;
 
 /// Many environments that are stepped together. Each draws its episodes from a seed of its own: what one does changes no other.
 pub struct VectorEnvironment {
@@ -88,22 +87,16 @@ impl VectorEnvironment {
         self.pool.as_ref().map_or(1, ThreadPool::current_num_threads)
     }
 
-    /// Copies values of many environments, on the threads where there are many values.
-    pub fn copy<T: Copy + Send + Sync>(&self, to: &mut [T], from: &[T]) {
-        if size_of_val(from) <= 2 * COPIED_AT_ONCE {
-            to.copy_from_slice(from);
-            return;
-        }
+    /// Copies columns of results, on the threads where there are many values.
+    pub fn copy(&self, mut copies: Copies<'_>) {
         let began = Instant::now();
-        match &self.pool {
-            Some(pool) => pool.install(|| {
-                let length = COPIED_AT_ONCE / size_of::<T>().max(1);
-                let pieces = to.par_chunks_mut(length).zip(from.par_chunks(length));
-                pieces.for_each(|(to, from)| to.copy_from_slice(from));
-            }),
-            None => to.copy_from_slice(from),
+        match self.pool.as_ref().filter(|_| copies.is_much()) {
+            Some(pool) => pool.install(|| copies.pieces.par_iter_mut().for_each(|copy| copy())),
+            None => copies.pieces.iter_mut().for_each(|copy| copy()),
         }
-        self.copied_ns.fetch_add(began.elapsed().as_nanos() as u64, Ordering::Relaxed);
+        if copies.is_much() {
+            self.copied_ns.fetch_add(began.elapsed().as_nanos() as u64, Ordering::Relaxed);
+        }
     }
 
     /// Seconds that all calls so far spent in work that is shared between the threads.
@@ -206,13 +199,13 @@ impl VectorEnvironment {
         self.draw(chosen);
     }
 
-    /// Moves every environment on by one step, with one action of [`cosfly_env::Action::of_numbers`] each.
-    pub fn step(&mut self, actions: &[[f64; ACTIONS]]) {
+    /// Moves every environment on by one step, with one action of [`cosfly_env::Action::of_numbers`] each, `f32` or `f64`.
+    pub fn step<N: ActionNumber>(&mut self, actions: &[[N; ACTIONS]]) {
         let began = Instant::now();
         let Self { shared, members, outputs, pool, .. } = self;
         // As exact as the action space.
-        let fly = |member: &mut VectorMember, action: &[f64; ACTIONS]| {
-            member.step(&action.map(|number| number as f32), shared);
+        let fly = |member: &mut VectorMember, action: &[N; ACTIONS]| {
+            member.step(&action.map(|number| number.into() as f32), shared);
         };
         if shared.is_team {
             let before = team::places(members);
@@ -261,11 +254,28 @@ impl VectorEnvironment {
 
     /// Begins the next episode wherever one ended in this step; its last observation is kept.
     fn begin_ended(&mut self) {
-        for (number, member) in self.members.iter_mut().enumerate().filter(|(_, member)| member.is_due) {
-            self.outputs.last_album.copy(&self.outputs.album, number);
-            member.begin(&self.shared);
-            self.outputs.row(number).tell(member);
+        let Self { shared, members, outputs, pool, .. } = self;
+        if !members.iter().any(|member| member.is_due) {
+            return;
         }
+        let began = Instant::now();
+        for (number, _) in members.iter().enumerate().filter(|(_, member)| member.is_due) {
+            outputs.last_album.copy(&outputs.album, number);
+        }
+        let begin = |(member, mut row): (&mut VectorMember, Row<'_>)| {
+            if member.is_due {
+                member.begin(shared);
+                row.tell(member);
+            }
+        };
+        match pool {
+            Some(pool) => pool.install(|| {
+                let all = members.par_iter_mut().zip(outputs.rows());
+                all.with_min_len(FEWEST_A_THREAD).for_each(begin);
+            }),
+            None => (0..).zip(members.iter_mut()).for_each(|(n, member)| begin((member, outputs.row(n)))),
+        }
+        self.shared_s += began.elapsed().as_secs_f64();
         let ended: Vec<bool> = self.members.iter().map(|member| member.end.is_some()).collect();
         self.draw(|number| ended[number]);
     }

@@ -5,19 +5,21 @@ use crate::errors::{InvalidValue, exception};
 use cosfly::Refusal;
 use cosfly_diagnose::Diagnostic;
 use cosfly_domain::{ChannelSet, Weather, channels};
+use cosfly_env::ActionNumber;
 use cosfly_env::pictures::{PictureBatch, PictureFormat, Pixels};
 use cosfly_fly::pilot::wrong_number;
 use cosfly_fly::settings::FlySettings;
 use cosfly_fly::suite::{EpisodeTask, Suite};
-use cosfly_fly::vector::{ACTIONS, Autoreset, TERMS, VectorEnvironment};
+use cosfly_fly::vector::{ACTIONS, Autoreset, Copies, TERMS, VectorEnvironment};
 use cosfly_render::PictureLook;
 use cosfly_runner::RunOptions;
 use cosfly_sensors::SensorSet;
 use cosfly_store::Store;
-use numpy::{Element, PyArrayDyn, PyArrayMethods, PyReadonlyArray2};
+use numpy::{Element, PyArrayDyn, PyArrayMethods, PyReadonlyArray2, PyReadwriteArrayDyn};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PySlice};
+use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -105,20 +107,11 @@ impl PyFlock {
     }
 
     /// One step of all environments.
-    fn step(&mut self, py: Python<'_>, actions: PyReadonlyArray2<'_, f64>) -> PyResult<()> {
-        let given = actions.as_slice().map_err(|error| InvalidValue::new_err(error.to_string()))?;
-        if let Some(wrong) = wrong_number(given, ACTIONS) {
-            let message = format!("actions have {wrong}; the action space has 12 m/s and 60 degrees/s at most");
-            return Err(InvalidValue::new_err(message));
+    fn step(&mut self, py: Python<'_>, actions: Actions<'_>) -> PyResult<()> {
+        match &actions {
+            Actions::Singles(actions) => self.fly(py, actions),
+            Actions::Doubles(actions) => self.fly(py, actions),
         }
-        let (rows, rest) = given.as_chunks::<ACTIONS>();
-        if rows.len() != self.flock.len() || !rest.is_empty() {
-            let message = format!("actions must have the shape ({}, {ACTIONS})", self.flock.len());
-            return Err(InvalidValue::new_err(message));
-        }
-        let flock = &mut self.flock;
-        py.detach(|| flock.step(rows));
-        Ok(())
     }
 
     /// Results of the last reset or step, by name: in arrays of their own, or in the arrays of the calls before.
@@ -181,36 +174,61 @@ fn preset(name: &str) -> PyResult<Weather> {
     })
 }
 
+/// Actions of all environments, a row each.
+#[derive(FromPyObject)]
+enum Actions<'py> {
+    Singles(PyReadonlyArray2<'py, f32>),
+    Doubles(PyReadonlyArray2<'py, f64>),
+}
+
 impl PyFlock {
+    fn fly<N: Element + ActionNumber>(&mut self, py: Python<'_>, actions: &PyReadonlyArray2<'_, N>) -> PyResult<()> {
+        let given = actions.as_slice().map_err(|error| InvalidValue::new_err(error.to_string()))?;
+        if let Some(wrong) = wrong_number(given, ACTIONS) {
+            let message = format!("actions have {wrong}; the action space has 12 m/s and 60 degrees/s at most");
+            return Err(InvalidValue::new_err(message));
+        }
+        let (rows, rest) = given.as_chunks::<ACTIONS>();
+        if rows.len() != self.flock.len() || !rest.is_empty() {
+            let message = format!("actions must have the shape ({}, {ACTIONS})", self.flock.len());
+            return Err(InvalidValue::new_err(message));
+        }
+        let flock = &mut self.flock;
+        py.detach(|| flock.step(rows));
+        Ok(())
+    }
+
     /// Puts all results into arrays of a dictionary: new ones where it lacks them.
     fn put_all(&self, told: &Bound<'_, PyDict>) -> PyResult<()> {
         let (outputs, count) = (self.flock.outputs(), self.flock.len());
-        self.put(told, "features", outputs.features.as_flattened(), &[count, cosfly_env::FEATURES])?;
-        if self.flock.mode() == Autoreset::SameStep {
-            self.put(told, "last_features", outputs.last_features.as_flattened(), &[count, cosfly_env::FEATURES])?;
+        let is_same_step = self.flock.mode() == Autoreset::SameStep;
+        let mut columns = Columns { told, all: vec![] };
+        columns.put("features", outputs.features.as_flattened(), &[count, cosfly_env::FEATURES])?;
+        if is_same_step {
+            columns.put("last_features", outputs.last_features.as_flattened(), &[count, cosfly_env::FEATURES])?;
         }
-        self.put(told, "rewards", &outputs.rewards, &[count])?;
-        self.put(told, "terminated", &outputs.terminated, &[count])?;
-        self.put(told, "truncated", &outputs.truncated, &[count])?;
-        self.put(told, "tracked", &outputs.tracked, &[count])?;
-        self.put(told, "look_alikes", &outputs.look_alikes, &[count])?;
+        columns.put("rewards", &outputs.rewards[..], &[count])?;
+        columns.put("terminated", &outputs.terminated[..], &[count])?;
+        columns.put("truncated", &outputs.truncated[..], &[count])?;
+        columns.put("tracked", &outputs.tracked[..], &[count])?;
+        columns.put("look_alikes", &outputs.look_alikes[..], &[count])?;
         if let Some(format) = self.flock.format() {
             let size = [count, format.height as usize, format.width as usize, 3];
-            self.put_pictures(told, "", &outputs.album, size)?;
-            self.put_pictures(told, "last_", &outputs.last_album, size)?;
+            columns.put_pictures("", &outputs.album, size)?;
+            columns.put_pictures("last_", &outputs.last_album, size)?;
         }
-        self.put_readings(told, "", &outputs.readings)?;
-        if self.flock.mode() == Autoreset::SameStep {
-            self.put_readings(told, "last_", &outputs.last_readings)?;
+        self.put_readings(&mut columns, "", &outputs.readings)?;
+        if is_same_step {
+            self.put_readings(&mut columns, "last_", &outputs.last_readings)?;
         }
-        if !outputs.beside.is_empty() {
-            let width = outputs.beside[0].len();
-            self.put(told, "beside", &outputs.beside.concat(), &[count, width])?;
+        if let Some(width) = outputs.beside.first().map(Vec::len) {
+            columns.put("beside", outputs.beside.concat(), &[count, width])?;
         }
         if self.flock.has_experts() {
-            self.put(told, "expert_action", outputs.expert_actions.as_flattened(), &[count, ACTIONS])?;
+            columns.put("expert_action", outputs.expert_actions.as_flattened(), &[count, ACTIONS])?;
         }
-        self.put(told, "last_terms", outputs.terms.as_flattened(), &[count, TERMS])?;
+        columns.put("last_terms", outputs.terms.as_flattened(), &[count, TERMS])?;
+        columns.copy(&self.flock)?;
         // Views of the terms are made with their array.
         if !told.contains("reward_visibility")? {
             for (at, name) in cosfly_env::Reward::NAMES.iter().enumerate() {
@@ -222,61 +240,86 @@ impl PyFlock {
         Ok(())
     }
 
-    /// Puts the channels of an album as arrays of (environment, row, column), and value where a pixel has three.
-    fn put_pictures(
-        &self,
-        told: &Bound<'_, PyDict>,
-        prefix: &str,
-        album: &PictureBatch,
-        size: [usize; 4],
-    ) -> PyResult<()> {
-        for (channel, pixels) in album.channels() {
-            let shape = if channel.element().parts() == 1 { &size[..3] } else { &size[..] };
-            let name = format!("{prefix}{}", channel.name);
-            match pixels {
-                Pixels::Bytes(bytes) => self.put(told, &name, bytes, shape)?,
-                Pixels::Floats(floats) => self.put(told, &name, floats, shape)?,
-                Pixels::Ids(ids) => self.put(told, &name, ids, shape)?,
-            }
-        }
-        Ok(())
-    }
-
     /// Puts the readings of each sensor as an array of (environment, quantity).
-    fn put_readings(&self, told: &Bound<'_, PyDict>, prefix: &str, rows: &[Vec<f32>]) -> PyResult<()> {
+    fn put_readings<'py: 'a, 'a>(
+        &self,
+        columns: &mut Columns<'_, 'py, 'a>,
+        prefix: &str,
+        rows: &[Vec<f32>],
+    ) -> PyResult<()> {
         let mut first = 0;
         for sensor in self.flock.settings().sensors.iter() {
             let end = first + sensor.quantities.len();
             // Before the first reset there are no readings.
             let own = |row: &Vec<f32>| row.get(first..end).map_or_else(|| vec![0.0; end - first], <[f32]>::to_vec);
             let own: Vec<f32> = rows.iter().flat_map(own).collect();
-            self.put(told, &format!("{prefix}{}", sensor.name), &own, &[rows.len(), end - first])?;
+            columns.put(&format!("{prefix}{}", sensor.name), own, &[rows.len(), end - first])?;
             first = end;
         }
         Ok(())
     }
+}
 
-    /// Puts values into the array of a name, which is made where it is missing.
-    fn put<T: Element + Copy + Send + Sync>(
-        &self,
-        told: &Bound<'_, PyDict>,
+/// A column of results, and the array that it goes into.
+trait Column {
+    fn add_to<'a>(&'a mut self, copies: &mut Copies<'a>) -> PyResult<()>;
+}
+
+impl<T: Element + Copy + Send + Sync> Column for (PyReadwriteArrayDyn<'_, T>, Cow<'_, [T]>) {
+    fn add_to<'a>(&'a mut self, copies: &mut Copies<'a>) -> PyResult<()> {
+        let to = self.0.as_slice_mut().map_err(|error| InvalidValue::new_err(error.to_string()))?;
+        copies.add(to, &self.1);
+        Ok(())
+    }
+}
+
+/// All columns of a step, and the dictionary of their arrays.
+struct Columns<'t, 'py, 'a> {
+    told: &'t Bound<'py, PyDict>,
+    all: Vec<Box<dyn Column + 'a>>,
+}
+
+impl<'py: 'a, 'a> Columns<'_, 'py, 'a> {
+    /// Values for the array of a name, which is made where it is missing.
+    fn put<T: Element + Copy + Send + Sync + 'a>(
+        &mut self,
         name: &str,
-        values: &[T],
+        values: impl Into<Cow<'a, [T]>>,
         shape: &[usize],
     ) -> PyResult<()> {
-        let py = told.py();
-        let array = match told.get_item(name)? {
+        let array = match self.told.get_item(name)? {
             Some(array) => array.cast_into::<PyArrayDyn<T>>()?,
             None => {
-                let array = PyArrayDyn::zeros(py, shape, false);
-                told.set_item(name, &array)?;
+                let array = PyArrayDyn::zeros(self.told.py(), shape, false);
+                self.told.set_item(name, &array)?;
                 array
             }
         };
-        let mut array =
+        let array =
             array.try_readwrite().map_err(|_| InvalidValue::new_err(format!("the array `{name}` is read-only")))?;
-        let to = array.as_slice_mut().map_err(|error| InvalidValue::new_err(error.to_string()))?;
-        py.detach(|| self.flock.copy(to, values));
+        self.all.push(Box::new((array, values.into())));
+        Ok(())
+    }
+
+    /// The channels of an album as arrays of (environment, row, column), and value where a pixel has three.
+    fn put_pictures(&mut self, prefix: &str, album: &'a PictureBatch, size: [usize; 4]) -> PyResult<()> {
+        for (channel, pixels) in album.channels() {
+            let shape = if channel.element().parts() == 1 { &size[..3] } else { &size[..] };
+            let name = format!("{prefix}{}", channel.name);
+            match pixels {
+                Pixels::Bytes(bytes) => self.put(&name, bytes, shape)?,
+                Pixels::Floats(floats) => self.put(&name, floats, shape)?,
+                Pixels::Ids(ids) => self.put(&name, ids, shape)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// Fills the arrays, all together.
+    fn copy(mut self, flock: &VectorEnvironment) -> PyResult<()> {
+        let mut copies = Copies::default();
+        self.all.iter_mut().try_for_each(|column| column.add_to(&mut copies))?;
+        self.told.py().detach(|| flock.copy(copies));
         Ok(())
     }
 }

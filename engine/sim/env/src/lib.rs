@@ -8,6 +8,7 @@
 //! sensors that are no cameras.
 
 mod action;
+mod action_number;
 mod craft;
 mod environment;
 mod episode;
@@ -26,6 +27,7 @@ mod suite;
 mod tests;
 
 pub use action::{Action, Drive, VelocityAxes};
+pub use action_number::ActionNumber;
 pub use environment::{Environment, Step};
 pub use episode::{Episode, Start};
 pub use observation::{FEATURES, Observation, TargetSighting};

@@ -2,7 +2,7 @@
 
 use crate::wire;
 use cosfly_diagnose::plausible;
-use cosfly_env::{Action, Environment, policies};
+use cosfly_env::{Action, ActionNumber, Environment, policies};
 use cosfly_frames::{DVec3, Pose, action, real};
 use rmpv::Value;
 
@@ -11,13 +11,14 @@ const LARGEST: f64 = 1e6;
 
 /// The first number that no action may have, with its place in rows of `columns`, as the end of a sentence. The rule of every door
 /// for actions: policies of `cosfly fly` and environments.
-pub fn wrong_number(rows: &[f64], columns: usize) -> Option<String> {
-    // Mostly none is wrong; without branches that is seen four times sooner.
-    if rows.iter().fold(true, |sound, number| sound & (number.abs() <= LARGEST)) {
+pub fn wrong_number<N: ActionNumber>(rows: &[N], columns: usize) -> Option<String> {
+    // Mostly none is wrong.
+    if N::are_within(rows, LARGEST) {
         return None;
     }
-    let place = rows.iter().position(|number| plausible(*number).is_err() || number.abs() > LARGEST)?;
-    let (row, column, number) = (place / columns, place % columns, rows[place]);
+    let is_wrong = |number: &N| plausible((*number).into()).is_err() || (*number).into().abs() > LARGEST;
+    let place = rows.iter().position(is_wrong)?;
+    let (row, column, number) = (place / columns, place % columns, rows[place].into());
     Some(format!("{number} at row {row}, column {column}; it must be a number within {LARGEST}"))
 }
 

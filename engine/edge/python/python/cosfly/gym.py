@@ -66,7 +66,7 @@ def _rows(actions: Any, shape: tuple[int, ...]) -> np.ndarray:
         raise InvalidValue(f"actions are of type {rows.dtype}; they are numbers, such as float32")
     if rows.shape != shape:
         raise InvalidValue(f"actions have the shape {rows.shape}; it is {shape}")
-    return np.ascontiguousarray(rows, dtype=np.float64)
+    return np.ascontiguousarray(rows, dtype=np.float32 if rows.dtype == np.float32 else np.float64)
 
 
 def _seed(seed: Any) -> int | None:
