@@ -274,6 +274,21 @@ fn figures_of_form_are_those_of_the_book() {
 }
 
 #[test]
+fn streets_of_suburbs_run_in_all_directions_around_large_blocks() {
+    let (name, town) = places().iter().find(|(name, _)| name.starts_with("suburb")).unwrap();
+    let usual = form(town).unwrap();
+    assert!((0.8..0.95).contains(&usual.direction_entropy) && usual.block_m2 > 30_000.0, "{name}: {usual:?}");
+    let suburb = ALL.iter().find(|kind| kind.name == "suburb").unwrap();
+    for (order, expected) in [(0.0, 0.95..1.0), (1.0, 0.65..0.8)] {
+        let settings = suburb.settings(&BTreeMap::from([("order".to_owned(), order)])).unwrap();
+        let (town, _) =
+            read_town(suburb.open_drive(&settings, 2).as_bytes(), &MapConfig::default(), Seed([1; 32])).unwrap();
+        let it = form(&town).unwrap();
+        assert!(expected.contains(&it.direction_entropy), "order {order}: {it:?}");
+    }
+}
+
+#[test]
 fn surfaces_and_roofs_that_do_not_exist_are_said() {
     let village = ALL.iter().find(|kind| kind.name == "village").unwrap();
     let smallest = village.keys.iter().map(|key| (key.name.to_owned(), key.range[0]));

@@ -171,6 +171,7 @@ fn houses(site: &mut Site, along: DVec2, stream: &mut RandomStream) {
         density: 0.6,
         hedges: 0.5,
         cars: 0.6,
+        drive_onto_m: 0.0,
         trees: 0.9,
     };
     let street = &site.network.streets[1];

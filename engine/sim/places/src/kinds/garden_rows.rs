@@ -94,6 +94,7 @@ fn style(is_terraced: bool, settings: &PlaceSettings) -> Houses {
         density: 0.97,
         hedges: 0.6,
         cars: 0.75,
+        drive_onto_m: 0.0,
         trees: settings.get("tree_share"),
     };
     let terraces = Houses {

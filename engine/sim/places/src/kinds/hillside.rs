@@ -104,6 +104,7 @@ fn houses(trees: f64) -> Houses {
         density: 0.95,
         hedges: 0.5,
         cars: 0.5,
+        drive_onto_m: 0.0,
         trees,
     }
 }

@@ -30,6 +30,8 @@ pub struct Houses {
     pub hedges: f64,
     /// Share of the gaps with a drive and a car.
     pub cars: f64,
+    /// How far drives reach under the pavement, metres: they meet it where it bends, too.
+    pub drive_onto_m: f64,
     /// Share of the gardens with trees.
     pub trees: f64,
 }
@@ -126,7 +128,9 @@ impl Houses {
         if !site.is_free(&drive, 0.0, 0.1) {
             return;
         }
-        site.surface(&drive, Surface::Paving);
+        let onto_m = self.drive_onto_m;
+        let size_m = DVec2::new(2.8, row.setback_m + 0.8 * row.depth_m + onto_m);
+        site.surface(&rectangle(at + (0.05 - onto_m) * along.perp(), along, size_m), Surface::Paving);
         let center = at + (row.setback_m + stream.uniform(0.0, 0.4) * row.depth_m) * along.perp();
         let heading_rad = real::atan2(along.y, along.x) + real::FRAC_PI_2;
         site.stand(ThingKind::Car, Lot { center, half_m: DVec2::new(2.15, 0.9), heading_rad }, 1.5, 0.1);

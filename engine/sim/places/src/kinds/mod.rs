@@ -17,10 +17,12 @@ mod perimeter_blocks;
 mod shopping;
 mod shore;
 mod sports;
+mod suburb;
 mod terraces;
 mod village;
 mod villas;
 mod waterfront;
+mod winding;
 
 use kind::PlaceKind;
 
@@ -39,6 +41,7 @@ pub const ALL: &[&PlaceKind] = &[
     &old_town::KIND,
     &perimeter_blocks::KIND,
     &shopping::KIND,
+    &suburb::KIND,
     &terraces::KIND,
     &village::KIND,
     &villas::KIND,

@@ -84,6 +84,7 @@ fn homes() -> Houses {
         density: 0.9,
         hedges: 0.7,
         cars: 0.7,
+        drive_onto_m: 0.0,
         trees: 0.6,
     }
 }

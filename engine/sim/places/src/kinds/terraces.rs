@@ -94,6 +94,7 @@ impl Slope {
             density: 0.98,
             hedges: 0.0,
             cars: 0.0,
+            drive_onto_m: 0.0,
             trees: 0.3,
         }
     }

@@ -40,6 +40,7 @@ fn build(settings: &PlaceSettings, seed: Seed) -> Site {
         density: settings.get("density"),
         hedges: 0.5,
         cars: 0.5,
+        drive_onto_m: 0.0,
         trees: 0.8,
     };
     let barns = Houses {

@@ -46,6 +46,7 @@ fn build(settings: &PlaceSettings, seed: Seed) -> Site {
         density: 0.93,
         hedges: 0.85,
         cars: 0.7,
+        drive_onto_m: 0.0,
         trees: 0.9,
     };
     let blocks = site.blocks();

@@ -76,6 +76,7 @@ fn houses(eaves_m: [f64; 2]) -> Houses {
         density: 0.95,
         hedges: 0.0,
         cars: 0.0,
+        drive_onto_m: 0.0,
         trees: 0.0,
     }
 }

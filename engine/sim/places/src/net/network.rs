@@ -5,7 +5,7 @@ use crate::alignment::{Alignment, Pose2};
 use crate::relief::Relief;
 use cosfly_frames::{DVec2, real};
 
-/// Radius of bends between junctions, metres.
+/// Radius of bends between junctions where the plan has none, metres.
 const BEND_M: f64 = 30.0;
 /// Shortest distance from the middle of a junction to the mouth of an arm, metres.
 const SHORTEST_MOUTH_M: f64 = 2.0;
@@ -64,7 +64,7 @@ impl Network {
         let cuts_m = cuts_m(plan, &nodes);
         let junctions = nodes.into_iter().map(|spokes| spokes.into_iter().map(|spoke| spoke.arm).collect()).collect();
         let streets = plan.links.iter().zip(cuts_m).map(|(link, cut_m)| Street {
-            line: Alignment::through(&plan.points(link), cut_m, BEND_M),
+            line: Alignment::through(&plan.points(link), cut_m, plan.bend_m.unwrap_or(BEND_M)),
             profile: link.profile,
             junctions: link.ends,
         });

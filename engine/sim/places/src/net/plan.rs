@@ -48,6 +48,8 @@ pub struct StreetPlan {
     pub links: Vec<Link>,
     /// Whether dead ends just end, without a turning circle.
     pub open_ends: bool,
+    /// Largest radius of bends, metres; that of gentle corners where there is none.
+    pub bend_m: Option<f64>,
 }
 
 impl StreetPlan {
