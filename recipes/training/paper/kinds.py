@@ -32,6 +32,7 @@ except ImportError as missing:
 
 from jobs import Jobs, run_recipe, write_whole
 
+# Those of the book's figures.
 KINDS = """arterial campus forest_edge garden_rows grid hillside industrial old_town perimeter_blocks shopping terraces village villas
 waterfront""".split()
 SIZE, LABELS, BATCH, RATE, DECAY = (128, 72), 32, 8, 3e-3, 1e-2
