@@ -10,5 +10,5 @@ const DRIVING: Driving = Driving {
     brake_mps2: 2.0,
     sideways_mps2: 1.4,
 };
-const VEHICLE: BodyKindRow = vehicle("e_scooter", SemanticLabel::Bicycle, [1.15, 0.61, 1.87], DRIVING);
+const VEHICLE: BodyKindRow = vehicle("e_scooter", SemanticLabel::Bicycle, [1.2, 0.5, 1.7], DRIVING);
 pub(super) static ROW: BodyKindRow = BodyKindRow { noun: "e-scooter", is_dressed: true, ..VEHICLE };

@@ -19,11 +19,12 @@ pub struct FcdType {
 }
 
 /// Beginnings and ends of words in names of types; the first that fits.
-const WORDS: [(&str, BodyKind); 23] = [
+const WORDS: [(&str, BodyKind); 24] = [
     ("motorcycl", BodyKind::Motorcycle),
     ("motorcycle", BodyKind::Motorcycle),
     ("moped", BodyKind::Motorcycle),
-    ("scooter", BodyKind::Motorcycle),
+    ("motorscooter", BodyKind::Motorcycle),
+    ("scooter", BodyKind::EScooter),
     ("motorbike", BodyKind::Motorcycle),
     ("ped", BodyKind::Pedestrian),
     ("person", BodyKind::Pedestrian),
@@ -94,11 +95,11 @@ mod tests {
         }
         assert_eq!([kind("tram"), kind("speedy"), kind("t0"), kind("")], [None; 4]);
         assert_eq!(kind_of("taxi@all", false, &types), Some((BodyKind::Van, DVec3::new(5.0, 2.0, 2.0))));
-        // SUMO's class of e-scooters: the word means a motorcycle until a recipe says otherwise.
-        assert_eq!(kind("scooter"), Some(BodyKind::Motorcycle));
-        let scooter = FcdType { kind: BodyKind::EScooter, size_m: None };
-        let told = kind_of("scooter", false, &BTreeMap::from([("scooter".to_owned(), scooter)]));
-        assert_eq!(told.map(|it| it.0), Some(BodyKind::EScooter));
+        // SUMO's class, and what its users call it.
+        for name in ["scooter", "e_scooter", "eScooter", "kick_scooter"] {
+            assert_eq!(kind_of(name, false, &types), Some((BodyKind::EScooter, DVec3::new(1.2, 0.5, 1.7))), "{name}");
+        }
+        assert_eq!(kind("motorscooter"), Some(BodyKind::Motorcycle));
         assert_eq!(kind_of("car", true, &types).map(|it| it.0), Some(BodyKind::Pedestrian));
     }
 }
