@@ -62,8 +62,6 @@ pub enum ArmBearing {
     Holds,
     /// Holds a stick or a leash before the hip; no build draws it.
     Leads,
-    /// Swings with the elbow bent; no build draws it.
-    Runs,
     /// Pushes something before the belly; no build draws it.
     Pushes,
 }

@@ -14,6 +14,10 @@ const STOOPED: (f64, f64) = (0.65, 0.22);
 /// Swing of the legs and bend of the knees relative to those of walkers as fast, and lean, of people who run.
 const RUNNING: (f64, f64, f64) = (0.9, 1.5, 0.16);
 
+/// People who run and are held up walk at no more than the first speed; from the second on they run, m/s. Between the two they
+/// change over.
+const RUNNING_MPS: [f64; 2] = [1.3, 1.8];
+
 /// Forward and up.
 pub(crate) type Side = (f64, f64);
 
@@ -59,16 +63,14 @@ impl Limbs {
         let swing = 0.5 * (walker.state.speed_mps / 1.3).clamp(0.0, 1.2);
         let (left, right) = (walker.gait_phase_rad, walker.gait_phase_rad + real::PI);
         let posture = walker.body.posture();
-        let is_fast = posture == Posture::Running && walker.state.speed_mps > 0.5;
+        let runs = if posture == Posture::Running { running_share(walker.state.speed_mps) } else { 0.0 };
         let (steps, knees, stoop) = match posture {
             Posture::Stooped => (STOOPED.0, 1.0, STOOPED.1),
-            Posture::Running if is_fast => RUNNING,
-            _ => (1.0, 1.0, 0.0),
+            _ => (mix(1.0, RUNNING.0, runs), mix(1.0, RUNNING.1, runs), mix(0.0, RUNNING.2, runs)),
         };
         let (stride, arm_swing) = (steps * swing * build.stride, 0.8 * swing * build.arm_swing + 0.08);
         let right_arm = if walker.body.has_umbrella() { ArmBearing::Holds } else { build.right_arm };
-        let (left_arm, right_arm) = match posture {
-            Posture::Running if is_fast => (ArmBearing::Runs, ArmBearing::Runs),
+        let arms = match posture {
             Posture::Upright | Posture::Running => (ArmBearing::Swings, right_arm),
             Posture::Stooped => (ArmBearing::Leads, right_arm),
             Posture::Pushing => (ArmBearing::Pushes, ArmBearing::Pushes),
@@ -82,8 +84,8 @@ impl Limbs {
                 LegJoints::of(0.047 * hips, right, stride, knees),
             ],
             arms: [
-                ArmJoints::of((-1.0, shoulders), right, arm_swing, left_arm),
-                ArmJoints::of((1.0, shoulders), left, arm_swing, right_arm),
+                ArmJoints::of((-1.0, shoulders), right, arm_swing, (arms.0, runs)),
+                ArmJoints::of((1.0, shoulders), left, arm_swing, (arms.1, runs)),
             ],
             bearing: Bearing { lean: build.lean + stoop, head: head_size(walker.height_m) },
         }
@@ -103,16 +105,16 @@ impl LegJoints {
 }
 
 impl ArmJoints {
-    /// An arm whose shoulder angle is `swing * sin(phase)`, with a bent elbow; or one that is busy.
-    fn of((side, shoulders): (f64, f64), phase: f64, swing: f64, arm: ArmBearing) -> Self {
+    /// An arm whose shoulder angle is `swing * sin(phase)`, with a bent elbow; or one that is busy; or, by a share, one that runs.
+    fn of((side, shoulders): (f64, f64), phase: f64, swing: f64, (arm, runs): (ArmBearing, f64)) -> Self {
         let (angle, bend) = match arm {
             ArmBearing::Swings => (swing * real::sin(phase), 0.25 + 0.5 * swing),
             ArmBearing::Pocket => (-0.25 + 0.1 * swing * real::sin(phase), 0.55),
             ArmBearing::Holds => (0.15 + 0.1 * swing * real::sin(phase), 2.0),
             ArmBearing::Leads => (0.25 + 0.2 * swing * real::sin(phase), 0.5),
-            ArmBearing::Runs => (1.2 * swing * real::sin(phase), 1.5),
             ArmBearing::Pushes => (0.55, 0.6),
         };
+        let (angle, bend) = (mix(angle, 1.2 * swing * real::sin(phase), runs), mix(bend, 1.5, runs));
         let right = side * (0.112 * shoulders + 0.014);
         let shoulder = (0.0, 0.815);
         let elbow = reach(shoulder, angle, 0.165);
@@ -132,8 +134,55 @@ impl Bearing {
     }
 }
 
+/// How far somebody of a speed runs: 0 walks, 1 runs.
+fn running_share(speed_mps: f64) -> f64 {
+    let share = ((speed_mps - RUNNING_MPS[0]) / (RUNNING_MPS[1] - RUNNING_MPS[0])).clamp(0.0, 1.0);
+    share * share * (3.0 - 2.0 * share)
+}
+
+/// Exactly `of_none` at a share of 0, `of_all` at 1.
+fn mix(of_none: f64, of_all: f64, share: f64) -> f64 {
+    if share > 0.0 { (1.0 - share) * of_none + share * of_all } else { of_none }
+}
+
 /// The point `length` below `(forward, up)`, turned forward by an angle.
 fn reach((forward, up): Side, angle_rad: f64, length: f64) -> Side {
     let (sin, cos) = real::sin_cos(angle_rad);
     (forward + length * sin, up - length * cos)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::BodyShape;
+    use cosfly_frames::{DVec3, Seed, TargetState};
+
+    /// Lean, and height of the left hand and knee, of somebody in the middle of a step.
+    fn bearing(posture: Posture, speed_mps: f64) -> [f64; 3] {
+        let walker = Walker {
+            state: TargetState { feet_in_world: DVec3::ZERO, heading_rad: 0.0, speed_mps },
+            height_m: 1.75,
+            radius_m: 0.25,
+            clothes_seed: Seed([4; 32]),
+            gait_phase_rad: 0.6,
+            body: BodyShape::Person { umbrella: false, posture },
+        };
+        let limbs = Limbs::of(&walker, &Build::draw(&walker.clothes_seed));
+        [limbs.bearing.lean, limbs.arms[0].hand.1, limbs.legs[0].knee.1]
+    }
+
+    #[test]
+    fn runners_who_are_held_up_walk_and_change_over_gently() {
+        for speed_mps in [0.0, 0.6, 1.0, 1.3] {
+            assert_eq!(bearing(Posture::Running, speed_mps), bearing(Posture::Upright, speed_mps), "{speed_mps} m/s");
+        }
+        let [walks, runs] = [Posture::Upright, Posture::Running].map(|posture| bearing(posture, 1.8));
+        assert!(runs[0] > walks[0] + 0.15 && runs[1] > walks[1] + 0.05, "{walks:?} {runs:?}");
+        let speeds = (0..=300).map(|step| bearing(Posture::Running, 0.01 * f64::from(step)));
+        let steps: Vec<[f64; 3]> = speeds.collect();
+        for pair in steps.windows(2) {
+            let jump = (0..3).map(|part| (pair[1][part] - pair[0][part]).abs()).fold(0.0, f64::max);
+            assert!(jump < 0.02, "{pair:?}");
+        }
+    }
 }
