@@ -96,4 +96,5 @@ def check(folder):
     return wrong
 
 
-end_with([problem for folder in sys.argv[1:] for problem in check(folder)])
+if __name__ == "__main__":
+    end_with([problem for folder in sys.argv[1:] for problem in check(folder)])

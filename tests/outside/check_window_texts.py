@@ -9,6 +9,7 @@ import sys
 from collections import Counter
 
 import numpy as np
+from check_phrases import PEOPLE, chinese, described, english, may_fit
 from goal_words import as_walked
 from shared import IN_CHINESE, Town, flown, pixel, place, require, rows, turned
 
@@ -168,13 +169,36 @@ def claims(text, picture):
             yield f"{where} one", [it["top_colour"] for it in along] == colours(clause)
 
 
+def phrase_claims(texts, flight, frame, others):
+    """The texts behind a target that is not on foot: both mean the same, the target, and nobody else in the picture."""
+    spoken = re.fullmatch(r"(?:Follow|Track|Keep following|Keep up with) (.*)\.", texts[0]), re.fullmatch("(?:请跟随|请跟上|跟随|跟踪)(.*)。", texts[1])
+    yield "phrase", all(spoken)
+    if not all(spoken):
+        return
+    meant = english(spoken[0][1])
+    yield "phrase in two languages", meant is not None and meant == chinese(spoken[1][1])
+    if meant is not None and frame["visible_box_px"] is not None:
+        middle = lambda edges: (edges[0] + edges[2]) / 2 / flight["camera_width_px"]
+        means = lambda of, row, speed: may_fit(meant, described(row, of, speed, middle((frame if of else row)["visible_box_px"])))
+        yield "phrase of the target", means("target_", flight, frame["target_speed_mps"])
+        yield "phrase of nobody else", not any(means("", it, it["speed_mps"]) for it in others)
+
+
 folder = sys.argv[1]
 flights, frames, seen = flown(folder)
-towns, on_road = Town.all_of(folder), ("pedestrian", "bicycle", "motorcycle")
-counts, wrong, local, windows, silent = Counter(), [], 0, 0, 0
+towns, on_road = Town.all_of(folder), (*PEOPLE, "bicycle", "motorcycle", "e_scooter")
+on_foot = [kind for kind in PEOPLE if kind not in ("wheelchair", "sitter")]
+counts, wrong, local, windows, others, silent = Counter(), [], 0, 0, 0, 0
 for row in rows(folder, "windows", ["trajectory_id", "start_frame", "input_boxes_px", "instruction_en", "instruction_zh"]):
     name, start = row["trajectory_id"], row["start_frame"]
     last = start + len(row["input_boxes_px"]) // 4 - 1
+    if flights[name]["target_kind"] not in on_foot:
+        others += 1
+        silent += not row["instruction_en"]
+        found = list(phrase_claims([row["instruction_en"], row["instruction_zh"]], flights[name], frames[name][last], seen[name, last])) if row["instruction_en"] else []
+        counts.update(claim for claim, _ in found)
+        wrong += [f"{claim} in frame {last} of {name}: {row['instruction_en']} {row['instruction_zh']}" for claim, holds in found if not holds]
+        continue
     people = [it for it in seen[name, last] if it["kind"] in on_road]
     picture = Picture(flights[name], frames[name][last], frames[name][start], people, towns[flights[name]["town"]])
     found = []
@@ -183,8 +207,7 @@ for row in rows(folder, "windows", ["trajectory_id", "start_frame", "input_boxes
         counts.update(claim for claim, _ in found)
         wrong += [f"{claim} in frame {last} of {name}: {text}" for claim, holds in found if not holds]
     windows += 1
-    silent += not row["instruction_en"]
     local += any(claim not in ("clothes", "backpack", "seen") for claim, _ in found)
-print(f"{windows} windows, {silent} of them behind vehicles and without a text, {100 * local / max(1, windows - silent):.0f} % of the others with a claim about the picture; {dict(counts.most_common())}")
+print(f"{windows} windows behind people on foot, {100 * local / max(1, windows):.0f} % with a claim about the picture; {others} behind others, {silent} without a text; {dict(counts.most_common())}")
 require(not wrong, f"{len(wrong)} claims are wrong:\n" + "\n".join(wrong[:10]))
-require(local >= 0.5 * (windows - silent), "less than half of the windows say anything about the picture")
+require(local >= 0.5 * windows, "less than half of the windows say anything about the picture")

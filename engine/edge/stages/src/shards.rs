@@ -38,7 +38,7 @@ pub fn part(config: &DatasetConfig, inputs: [InputPort; 3]) -> StagePart {
     let mut inputs: Vec<InputPort> = inputs.map(ports::group).into();
     inputs.extend([ports::group(logs::port()), group_splits::port()]);
     let properties = StageProperties {
-        version: 17,
+        version: 18,
         parameters: serde_json::json!({
             "windows": canonical["windows"],
             "frames_per_file": canonical["frames_per_file"],

@@ -62,7 +62,8 @@ columns! { Windows::COLUMNS of DatasetItem;
     caption_ids: Vec<String> = |item, _| (0..item.captions.len()).map(|place| super::captions::id(item, place)).collect();
     /// Instruction in English that singles the target out in the last picture of the input: by its clothes, the people around it,
     /// its way across the picture, a landmark that it passes. Left, middle and right of the picture are those of table `phrases`.
-    /// Empty for a target without a body, and for one that is not on foot: vehicles, wheelchairs, people on chairs.
+    /// Of a target that is not on foot (vehicles, wheelchairs, people on chairs) it is the phrase that singles it out there, as in
+    /// table `phrases`; empty where none does, and for a target without a body.
     instruction_en: String = |item, row| item.derived.instructions[row][0].clone();
     /// The same in Chinese, in words of its own.
     instruction_zh: String = |item, row| item.derived.instructions[row][1].clone();

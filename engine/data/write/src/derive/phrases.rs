@@ -34,11 +34,8 @@ impl Given {
         let stretch = (EVERY_S / record.dt_s()).round().max(1.0) as usize;
         let firsts = (0..record.len()).step_by(stretch);
         let given = |first: usize| {
-            let mut frames = (first..record.len().min(first + stretch)).filter(|frame| is_clear(record, *frame));
-            frames.find_map(|frame| {
-                let target = target(record, kind, outfit, frame);
-                Phrase::unique(&target, &others(record, frame)).map(|phrase| (frame, phrase))
-            })
+            let mut frames = first..record.len().min(first + stretch);
+            frames.find_map(|frame| unique(record, frame).map(|phrase| (frame, phrase)))
         };
         firsts.filter_map(given).map(|(frame, phrase)| Self::followed(record, kind, outfit, frame, phrase)).collect()
     }
@@ -69,6 +66,13 @@ impl Given {
         let candidates = (0..record.len()).map(count).collect();
         Self { frame, candidates, phrase, fits_target }
     }
+}
+
+/// The phrase that singles the target out in a frame; `None` where the target is not clear, or no phrase does.
+pub(super) fn unique(record: &RenderedTrajectory, frame: usize) -> Option<Phrase> {
+    let (kind, outfit) = record.target_kind().zip(record.outfit.as_ref())?;
+    let phrase = || Phrase::unique(&target(record, kind, outfit, frame), &others(record, frame));
+    if is_clear(record, frame) { phrase() } else { None }
 }
 
 /// Whether a frame shows enough of the target for a text about it.

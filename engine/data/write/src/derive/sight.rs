@@ -1,5 +1,6 @@
 //! Instructions of windows: what the last picture of the input shows of the target.
 
+use super::phrases::unique;
 use cosfly_captions::sight::{self, Landmarks, SeenPerson, WindowView};
 use cosfly_captions::{Language, Wear};
 use cosfly_domain::{BodyKind, Colour, PixelBox};
@@ -7,7 +8,8 @@ use cosfly_frames::{Seed, TargetState};
 use cosfly_schema::log::messages::edges_px;
 use cosfly_schema::{OtherBody, RenderedTrajectory, Sighting};
 
-/// The instruction of frame `frame`, of a window that begins at frame `start`; empty for a target that is no person.
+/// The instruction of frame `frame`, of a window that begins at frame `start`. Of a target that is not on foot it is the phrase
+/// that singles the target out there; empty where none does, and for a target without a body.
 pub fn instruction(
     record: &RenderedTrajectory,
     landmarks: &Landmarks,
@@ -15,12 +17,15 @@ pub fn instruction(
     start: usize,
     language: Language,
 ) -> String {
-    let Some(view) = view(record, frame, start) else { return String::new() };
     let seed = Seed::of_item(record.seed, "windows", &record.trajectory_id).child("window", start as u64);
+    let Some(view) = view(record, frame, start) else {
+        let phrase = record.target_kind().filter(|kind| !kind.is_on_foot()).and_then(|_| unique(record, frame));
+        return phrase.map_or_else(String::new, |it| sight::phrase_instruction(&it, language, seed));
+    };
     sight::instruction(&sight::sight(&view, landmarks), language, seed)
 }
 
-/// The picture of frame `frame`; `None` for a target that is no person.
+/// The picture of frame `frame`; `None` for a target that is not on foot.
 fn view(record: &RenderedTrajectory, frame: usize, start: usize) -> Option<WindowView> {
     let kind = record.target_kind().filter(|kind| kind.is_on_foot())?;
     let outfit = record.outfit.as_ref()?;

@@ -16,4 +16,4 @@ pub use crossings::Crossing;
 pub use facts::{Across, Near, PlaceAmong, SeenTarget, Side, Sight, sight};
 pub use landmarks::{LandmarkKind, Landmarks};
 pub use view::{SeenPerson, WindowView};
-pub use wording::instruction;
+pub use wording::{instruction, phrase_instruction};

@@ -5,6 +5,7 @@ use super::facts::{Across, PlaceAmong, Side, Sight};
 use super::relation::{Relation, relation};
 use crate::goals::{landmark_name, side_name};
 use crate::messages::{Speaker, messages_of};
+use crate::refer::{Phrase, text};
 use crate::who::who;
 use cosfly_claims::Language;
 use cosfly_random::Seed;
@@ -13,6 +14,15 @@ use cosfly_random::Seed;
 pub fn instruction(sight: &Sight, language: Language, seed: Seed) -> String {
     let words = &mut seed.child(language.code(), 0).stream("words");
     sentence(sight, &mut Speaker { messages: messages_of(language, sight.runs), words })
+}
+
+/// One sentence for the pilot about a body that a phrase singles out: `Follow the white car on the left of the picture.` The
+/// wording is the seed's.
+pub fn phrase_instruction(phrase: &Phrase, language: Language, seed: Seed) -> String {
+    let words = &mut seed.child(language.code(), 0).stream("words");
+    let speaker = &mut Speaker { messages: messages_of(language, false), words };
+    let follow = speaker.one("sight-follow");
+    speaker.messages.filled("sight-phrase", &[("follow", follow), ("phrase", &text(phrase, language))])
 }
 
 /// `Follow the person in a red top and blue trousers, ahead of two others, walking away from the camera.`
