@@ -29,6 +29,9 @@ pub const CLUMPS: [[f32; 4]; 20] = [
     [0.337, -0.560, -0.376, 0.384],
     [-0.069, 0.612, -0.438, 0.266],
 ];
+/// How far leaves stand out or back on each clump, for each that they do elsewhere: where two clumps meet, neither has a smooth edge.
+pub const SWAY: [f32; 20] =
+    [1.6, -1.3, 0.3, -1.8, 2.2, 1.0, -0.9, 2.0, -2.2, 0.6, -1.5, 2.4, -0.4, 1.4, -2.0, 0.8, 1.9, -1.1, 2.1, -1.7];
 /// Radius of the dark inside of a crown.
 const INSIDE: f32 = 0.78;
 /// How much farther a clump counts that a ray passes by, for each radius squared.
@@ -50,6 +53,18 @@ impl CrownRay {
     #[inline(always)]
     pub fn new(from: Vec3, along: Vec3) -> Self {
         Self { from, along, begun: from.dot(along), away: from.dot(from) }
+    }
+
+    /// Where the ray begins.
+    #[inline(always)]
+    pub fn from(self) -> Vec3 {
+        self.from
+    }
+
+    /// Where it goes, of length 1.
+    #[inline(always)]
+    pub fn along(self) -> Vec3 {
+        self.along
     }
 
     /// How far along the ray a ball's middle is, and the ball's radius less the ray's distance from its middle, both squared;

@@ -2,7 +2,7 @@
 //!
 //! Boxes of crowns are small on the screen: all of a picture are shaded together, each four with the numbers of its crown.
 
-use super::clumps::{CLUMPS, CrownRay, CrownRays, NearestClump, outwards};
+use super::clumps::{CLUMPS, CrownRay, CrownRays, NearestClump, SWAY, outwards};
 use super::lanes::{
     Block, EMPTY_ROW, FOUR, PendingFours, PixelLane, Shared, StageRow, WIDE, get, groups, set, three_of, write_row,
     write_three,
@@ -60,7 +60,7 @@ const BELOW: Vec3 = Vec3::new(0.150, 0.131, 0.096);
 
 /// Twigs of a bare crown, linear RGB.
 fn twigs(seed: u32) -> Vec3 {
-    Vec3::new(0.126, 0.089, 0.057).lerp(Vec3::new(0.108, 0.083, 0.060), draw(seed, 10))
+    Vec3::new(0.094, 0.074, 0.056).lerp(Vec3::new(0.080, 0.068, 0.055), draw(seed, 10))
 }
 
 /// A crown.
@@ -268,13 +268,17 @@ simd_kernel! {
                 }
                 for (k, ragged) in nearest.ragged.iter_mut().enumerate() {
                     let place = get(&block.world, k) - three_of(&crowns.middle, group, k);
-                    *ragged = raggedness(place, PendingFours::lane(&crowns.shift, group)[k], shared.footprint_m[k], noise);
+                    let (shift, normal) = (PendingFours::lane(&crowns.shift, group)[k], get(&block.normal, k));
+                    *ragged = raggedness(place, normal, shift, shared.footprint_m[k], noise);
                 }
                 let rays = crowns.clumps(group, block, eye, &mut nearest);
+                let ragged = nearest.ragged;
                 for k in 0..WIDE {
                     let (place, crown) = (get(&block.world, k), crowns.on_map(group, k));
-                    let seen = OnClump { nearest: nearest.at(k), ray: rays.at(k), round: get(&block.normal, k) };
-                    let (look, aside) = look(&seen, &crown, shared.footprint_m[k], nearest.ragged[k], noise);
+                    let (nearest, ray, round) = (nearest.at(k), rays.at(k), get(&block.normal, k));
+                    let place_on = place - three_of(&crowns.middle, group, k);
+                    let seen = OnClump { nearest, ray, round, place: place_on };
+                    let (look, aside) = look(&seen, &crown, shared.footprint_m[k], ragged[k], noise);
                     block.put_bent(k, &look);
                     set(&mut block.world, k, place + off_crown + aside * ASIDE_M);
                 }
@@ -307,11 +311,12 @@ impl NearestClumps {
     }
 }
 
-/// What a pixel shows: a clump, the ray to it, and the round crown's normal.
+/// What a pixel shows: a clump, the ray to it, and the round crown's normal and place, metres from its middle.
 struct OnClump {
     nearest: NearestClump,
     ray: CrownRay,
     round: Vec3,
+    place: Vec3,
 }
 
 impl Crowns {
@@ -334,9 +339,9 @@ impl Crowns {
             rays.put(k, ray);
             nearest.put(k, NearestClump::inside(ray));
         }
-        for [x, y, z, radius] in CLUMPS {
+        for ([x, y, z, radius], sway) in CLUMPS.into_iter().zip(SWAY) {
             for k in 0..WIDE {
-                let radius = radius * (1.0 + nearest.ragged[k]);
+                let radius = radius * (1.0 + sway * nearest.ragged[k]);
                 nearest.put(k, nearest.at(k).or(rays.at(k), Vec3::new(x, y, z), radius * radius));
             }
         }
@@ -361,32 +366,34 @@ simd_kernel! {
     }
 }
 
-/// How far the leaves of clumps stand out or back, as a share of the clump; `place` is from the middle of the crown.
+/// How far the leaves of clumps stand out or back, as a share of the clump; `place` is from the middle of the crown, and the
+/// pattern lies on the side of the crown that it is on, so that it is drawn out nowhere.
 #[inline(always)]
-fn raggedness(place: Vec3, shift: f32, size: f32, noise: &NoiseTexture) -> f32 {
-    let (u, v) = along(place * PER_M);
-    0.45 * (noise.rough(u + shift, v - shift, size * PER_M) - 0.5)
+fn raggedness(place: Vec3, normal: Vec3, shift: f32, size: f32, noise: &NoiseTexture) -> f32 {
+    let (u, v) = facing(place * PER_M, normal);
+    0.6 * (noise.rough(u + shift, v - shift, size * PER_M) - 0.5)
 }
 
 /// The look of a place on a clump. Patterns lie on each clump as seen from outside. Also the way that its leaves are turned.
 #[inline(always)]
 fn look(seen: &OnClump, crown: &OnMap, size: f32, ragged: f32, noise: &NoiseTexture) -> (Look, Vec3) {
-    let OnClump { nearest, ray, round } = seen;
+    let OnClump { nearest, ray, round, place } = seen;
     let (met, bare) = (nearest.place(*ray), 1.0 - crown.through);
-    let on_clump = crown.back(met - nearest.middle);
+    // Beyond the edges of clumps, patterns lie on the round crown: nothing is drawn out long there.
+    let passed = one_if(nearest.met < 0.0);
+    let on_clump = crown.back(met - nearest.middle).lerp(*place * crown.shrink, passed);
     let out = (on_clump * crown.shrink).unit();
     // Where sides of a clump meet, leaves hide the seam.
     let (u, v) = facing(on_clump * crown.half * PER_M, out + Vec3::new(ragged, -ragged, 0.0) * 2.0);
     // Sides of clumps that the eye sees at a slant are finer.
     let radius = met - nearest.middle;
-    let slant = share(nearest.met / (radius.dot(radius) + 1e-6));
+    let slant = most(share(nearest.met / (radius.dot(radius) + 1e-6)), 0.5 * passed);
     let size = size / most(slant.sqrt(), 0.4);
     let apart = crown.shift + 60.0 * (nearest.middle.x + nearest.middle.y);
-    // Nothing is drawn out long beyond the edges of clumps.
     let clear = share(1.0 + 12.0 * nearest.met);
-    let big = clear * (noise.rough(u + apart, v - apart, 1.15 * size * PER_M) - 0.5);
+    let big = noise.rough(u + apart, v - apart, 1.15 * size * PER_M) - 0.5;
     let fine = lerp(0.85, 1.0, crown.through);
-    let small = clear * (noise.grain(u * fine, v * fine, 1.15 * size * PER_M * fine) - 0.5);
+    let small = noise.grain(u * fine, v * fine, 1.15 * size * PER_M * fine) - 0.5;
     // Leaves have edges: light ones before dark gaps.
     let leaf = share(0.5 + small * (4.0 - 3.0 * share(size * PER_M * fine - 0.25))) - 0.5;
     // Twigs are lines, level sets of the same noise, with what lies below the crown between them; they fade where a
@@ -395,13 +402,14 @@ fn look(seen: &OnClump, crown: &OnMap, size: f32, ragged: f32, noise: &NoiseText
     let small = small * crown.through;
     // Every twig of leaves faces its own way.
     let turn = Vec3::new(2.0 * ragged - big, 2.0 * ragged + leaf, big + ragged);
-    let bent = (out + turn * 1.6 + Vec3::new(0.0, 0.0, 0.25)).lerp(Vec3::new(0.0, 0.0, 1.0), 0.6 * bare);
+    let bent =
+        (out.lerp(*round, 0.5) + turn * 1.9 + Vec3::new(0.0, 0.0, 0.25)).lerp(Vec3::new(0.0, 0.0, 1.0), 0.6 * bare);
     let outer = lerp(outwards(met) * lerp(0.5, 1.0, clear), 0.75, 0.7 * bare);
-    let deep = smoothstep(-0.75, 1.15, 2.1 * outer - 1.15 + 1.9 * big + 0.9 * leaf * crown.through);
+    let deep = smoothstep(-0.75, 1.15, 1.6 * outer - 0.8 + 3.2 * big + 1.1 * leaf * crown.through);
     // Light shines through leaves at the rim of a clump: they are yellower there.
     let through = Vec3::new(1.9, 1.45, 1.1) * crown.through + Vec3::splat(0.6 * bare);
     let tint = crown.tint.lerp(crown.tint * through, 0.5 * (small + 0.5) * deep);
-    let tint = (tint * (0.45 + 0.95 * deep)).lerp(BELOW, open * (0.5 + 0.25 * deep));
+    let tint = (tint * (0.45 + 0.95 * deep)).lerp(BELOW, open * (0.2 + 0.2 * deep));
     // Darker below, where the crown shades itself.
     let shade = 0.4 + 0.3 * smoothstep(-1.0, 0.6, round.z + bare) + 0.3 * smoothstep(-0.7, 0.5, out.z + bare);
     let openness = lerp((0.30 + 0.80 * deep) * shade, 0.85, 0.5 * open);
@@ -424,12 +432,6 @@ impl OnMap {
     fn back(&self, v: Vec3) -> Vec3 {
         turned(v, [self.turn[0], -self.turn[1]])
     }
-}
-
-/// Where a place lies seen along a way that leans from upright.
-#[inline(always)]
-fn along(place: Vec3) -> (f32, f32) {
-    (place.y, 0.57 * place.x - 0.82 * place.z)
 }
 
 /// Where a place lies seen along the axis that faces it most.
@@ -455,7 +457,7 @@ mod tests {
             let (up, middle) = (turned(normal, crown.turn), turned(normal * -40.0, crown.turn) * 0.5);
             let from = turned(world + normal, crown.turn) * 0.5;
             let nearest = NearestClump { reach: 0.5, middle, met: 400.0 };
-            let seen = OnClump { nearest, ray: CrownRay::new(from, up * -1.0), round: normal };
+            let seen = OnClump { nearest, ray: CrownRay::new(from, up * -1.0), round: normal, place: world };
             look(&seen, &crown, 0.02, 0.0, &noise).0.openness
         };
         // Mean change over a step along a face.

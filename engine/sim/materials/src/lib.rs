@@ -9,6 +9,7 @@
 //! the lamps each place of a town sees; [`scan_light`] the light of scans. [`season`] turns leaves and lawns.
 
 mod boats;
+pub mod boughs;
 pub mod building_form;
 pub mod building_forms;
 pub mod clumps;
