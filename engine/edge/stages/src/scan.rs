@@ -57,7 +57,7 @@ impl StageKind for Scan {
         let mut canonical = parameters::canonical(&config);
         canonical["version"] = source.version.clone().into();
         let properties = StageProperties {
-            version: 5,
+            version: 6,
             parameters: canonical,
             inputs: self.ports(),
             items: ItemRule::PerInput("frames"),

@@ -80,11 +80,13 @@ impl BakedTown {
     }
 }
 
-/// Boxes in which nothing is seen: those of cars hold vehicles, and those of pitched roofs reach over their slopes.
+/// Boxes in which nothing is seen: those of cars hold vehicles, those of pitched roofs reach over their slopes, and those of slanted
+/// walls over these.
 fn opaque(faces: &[SceneFace], cars: &BTreeSet<u32>) -> BoxBvh {
     let is_whole = |faces: &&[SceneFace]| {
         let is_box = faces[0].outward_in_world.is_some() && !cars.contains(&faces[0].instance);
-        is_box && faces[..4].iter().all(|face| face.normal_in_world.z == 0.0)
+        let is_opposite = |a: usize| faces[a].normal_in_world.dot(faces[a + 1].normal_in_world) < -1.0 + 1e-9;
+        is_box && faces[..4].iter().all(|face| face.normal_in_world.z == 0.0) && is_opposite(0) && is_opposite(2)
     };
     let shape = |faces: &[SceneFace]| {
         let (low, high) = (&faces[4].corners_in_world, &faces[5].corners_in_world);

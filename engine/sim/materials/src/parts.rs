@@ -4,6 +4,7 @@ use crate::building_form::BuildingForm;
 use crate::kerbs::KerbLine;
 use crate::pattern::hash;
 use crate::roof_step::RoofStep;
+use crate::slanted_wall::SlantedWall;
 use crate::thing_form::ThingForm;
 use cosfly_domain::{Obstacle, ObstacleKind, SemanticLabel, Town};
 use cosfly_frames::{DVec3, real};
@@ -49,6 +50,8 @@ pub struct SceneBox {
     pub roof: Option<Box<RoofStep>>,
     /// Sides, in the order of the faces, on which the flat roof of a building goes on over another box, or ends at a wall.
     pub roof_goes_on: [bool; 4],
+    /// Slanted walls that its sides are parts of, in the order of the faces; none for most boxes.
+    pub slants: Option<Box<[Option<SlantedWall>; 4]>>,
 }
 
 /// A box's six faces: outward axis (0 x, 1 y, 2 z), its sign, and the corner numbers around it.
@@ -153,6 +156,7 @@ fn scene_box(obstacle: &Obstacle, look_seed: u32) -> Option<SceneBox> {
         is_at_street: [false; 4],
         roof: None,
         roof_goes_on: [false; 4],
+        slants: None,
     })
 }
 

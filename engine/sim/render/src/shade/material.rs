@@ -11,6 +11,7 @@ use cosfly_materials::lanes::PendingFours;
 use cosfly_materials::light::Light;
 use cosfly_materials::parts::{BOX_FACES, SceneBox};
 use cosfly_materials::roof_step::FaceLook;
+use cosfly_materials::slanted_wall::SlantedWall;
 use cosfly_materials::thing_form::ThingForm;
 use cosfly_materials::things::BoxThing;
 use cosfly_materials::vector::Vec3;
@@ -66,10 +67,20 @@ pub(super) fn box_axes(b: &SceneBox, face: usize) -> FaceAxes {
     let axes = b.axes_in_world.map(Vec3::from);
     let up = if axis == 2 { axes[1] } else { Vec3::new(0.0, 0.0, 1.0) };
     let is_piece = axis != 2 && b.roof.as_deref().is_some_and(|roof| roof.top.is_some_and(|top| top.falls.is_some()));
+    if axis != 2
+        && let Some(wall) = slanted(b, face)
+    {
+        return FaceAxes { along: wall.along, up };
+    }
     // Pieces of roofs have sides of their own.
     let out: Vec3 = b.normal_in_world(face).into();
     let along = if is_piece { Vec3::new(-out.y, out.x, 0.0) } else { axes[usize::from(axis == 0)] };
     FaceAxes { along, up }
+}
+
+/// The slanted wall that an upright face of a box is a part of.
+fn slanted(b: &SceneBox, face: usize) -> Option<SlantedWall> {
+    b.slants.as_deref()?.get(face).copied().flatten()
 }
 
 /// Material of a face of a box.
@@ -89,6 +100,8 @@ pub(super) fn box_material(b: &SceneBox, face: usize, night: f32) -> Material {
     } else if axis == 2 {
         let roof = Roof::new(b.seed, center, axes, [half.x, half.y], b.roof_goes_on);
         Material::Roof(if b.form == BuildingForm::Tank { roof.of_sheet() } else { roof })
+    } else if let Some(SlantedWall { along, edge_m, half_width_m }) = slanted(b, face) {
+        Material::Facade(Facade::of_box(b, face, half_width_m), BoxFace { along, edge_m, foot_m: center.z - half.z })
     } else {
         let half_width = if axis == 0 { half.y } else { half.x };
         let look = Facade::of_box(b, face, half_width);
