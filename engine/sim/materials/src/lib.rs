@@ -14,6 +14,7 @@ pub mod building_form;
 pub mod building_forms;
 pub mod clumps;
 mod containers;
+pub mod crown_gaps;
 pub mod drawn_shapes;
 pub mod dry_days;
 pub mod facade;

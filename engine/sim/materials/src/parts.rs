@@ -65,6 +65,11 @@ pub const BOX_FACES: [(usize, f64, [usize; 4]); 6] = [
 ];
 
 impl SceneBox {
+    /// The slanted wall that an upright face is a part of.
+    pub fn slanted(&self, face: usize) -> Option<SlantedWall> {
+        self.slants.as_deref()?.get(face).copied().flatten()
+    }
+
     /// Outward unit normal of face `face`.
     #[inline]
     pub fn normal_in_world(&self, face: usize) -> DVec3 {

@@ -12,13 +12,10 @@ use super::setting::{Seen, Setting};
 use crate::faces::FaceSource;
 use crate::passes::ids::{CrownSpan, Run, SeenRuns};
 use crate::scene::Scene;
-use cosfly_domain::{FrameImages, SemanticLabel};
-use cosfly_frames::simd_kernel;
-use cosfly_materials::boughs::boughs;
-use cosfly_materials::clumps::CrownRays;
-use cosfly_materials::leaves::{LeafCrown, Leaves};
-use cosfly_materials::pattern::{NoiseTexture, Noises, hash, least, lerp, most, share, smoothstep, unit};
-use cosfly_materials::vector::Vec3;
+use cosfly_domain::FrameImages;
+use cosfly_materials::crown_gaps::{GapPlace, GapPlaces, TOGETHER, crown_gaps, is_body, mixed};
+use cosfly_materials::leaves::Leaves;
+use cosfly_materials::pattern::{NoiseTexture, hash, smoothstep, unit};
 
 /// Gaps reach this far into a crown, metres.
 const REACH_M: f32 = 0.8;
@@ -26,23 +23,8 @@ const REACH_M: f32 = 0.8;
 const REACH_SHARE: f32 = 0.33;
 /// Pixels that gaps reach at most.
 const MOST_PX: f32 = 20.0;
-/// How thin leaves must be for a gap: at the edge, and that much more at the end of its reach.
-const THIN: [f32; 2] = [0.96, 0.78];
-/// How far from the middle of a twig a gap begins: at the rim of a bare crown, and that much more in its middle.
-const BARE_THIN: [f32; 2] = [0.03, 0.02];
-/// How much of a pixel is open where twigs are thinner than it, and how dark boughs are, as a share of twigs.
-const BARE_OPEN: f32 = 0.8;
+/// How dark boughs are, as a share of twigs.
 const BOUGH_SHADE: f32 = 0.45;
-/// How fast leaves become a gap as noise grows: edges of leaves are soft, so that no pixel pops.
-const STEEPNESS: f32 = 8.0;
-/// How fast leaves get thin beyond clumps, and how much at most; within clumps they are as much denser.
-const BEYOND: f32 = 3.0;
-const MOST_BEYOND: f32 = 0.6;
-/// How much denser twigs are within clumps at most.
-const BARE_DENSER: f32 = 0.045;
-/// Pixels whose leaves are looked at together.
-const TOGETHER: usize = 256;
-
 /// Notes the pixels of a run that shows a crown; neighbours of one crown become one span.
 pub(super) fn note(seen: &Seen<'_>, run: &Run, width: usize, crowns: &mut Vec<CrownSpan>) {
     let (Some(leaves), Some(face)) = (crown_of(seen, run.face), seen.faces.get(run.face as usize)) else { return };
@@ -87,32 +69,12 @@ struct Waiting {
     right: [f32; TOGETHER],
     /// How many pixels the edge is away.
     away: [u8; TOGETHER],
-    place: Places,
+    places: GapPlaces,
+    has_bare: bool,
     /// Share of the pixel without leaves.
     gap: [f32; TOGETHER],
     /// Share of the pixel that boughs of a bare crown cover.
     wood: [f32; TOGETHER],
-}
-
-/// Where they are, and how thin leaves must be.
-struct Places {
-    /// Centre from the left and the top, pixels.
-    u: [f32; TOGETHER],
-    v: [f32; TOGETHER],
-    depth_m: [f32; TOGETHER],
-    /// Size of a pixel at the edge, metres.
-    pixel_m: [f32; TOGETHER],
-    /// Where the pattern of the tree begins.
-    shift: [f32; TOGETHER],
-    /// Pixels with more of a gap than this have some of one.
-    least: [f32; TOGETHER],
-    /// One where there are twigs and no leaves.
-    bare: [f32; TOGETHER],
-    /// Middles of round crowns, metres, and one divided by half their size.
-    middle: [[f32; TOGETHER]; 3],
-    shrink: [[f32; TOGETHER]; 3],
-    /// Cosine and sine of how clumps are turned.
-    turn: [[f32; TOGETHER]; 2],
 }
 
 /// An edge of a crown: from the first pixel inside, by steps of `inward` pixels.
@@ -149,9 +111,7 @@ impl Foliage {
         look(waiting);
         for Change { at, behind, part, light } in self.changes.iter().rev().flatten() {
             if let Some(pixel) = images.rgb.get_mut(3 * *at as usize..).and_then(|rest| rest.first_chunk_mut::<3>()) {
-                let own = pixel.map(|own| light.wrapping_mul(i32::from(own)) >> 8);
-                let mixed = |k: usize| own[k] + (part.wrapping_mul(i32::from(behind[k]) - own[k]) >> 8);
-                *pixel = [0, 1, 2].map(|k| mixed(k) as u8);
+                *pixel = mixed(mixed([0; 3], *pixel, *light), *behind, *part);
             }
         }
     }
@@ -218,8 +178,8 @@ impl Picture<'_> {
             let behind = if is_same && !is_body { behind } else { outside };
             // Fewer gaps farther inside: dents between branches, ragged by leaves.
             let inside = (k as f32 + 0.5) / reach;
-            waiting.add(Gap { pixel, behind: [behind; 2], right: 0.0, away: k as u8 });
-            self.place(span, pixel_m, THIN[0] + THIN[1] * inside, waiting, look);
+            let gap = Gap { pixel, behind: [behind; 2], right: 0.0, away: k as u8, pixel_m, inside };
+            self.add(span, &gap, waiting, look);
         }
     }
 
@@ -255,36 +215,28 @@ impl Picture<'_> {
                 _ => 0.0,
             };
             let inside = 1.0 - (2.0 * along - 1.0).abs();
-            waiting.add(Gap { pixel, behind, right, away: 0 });
             let pixel_m = self.view.pixel() * depth_m[pixel];
-            self.place(span, pixel_m, BARE_THIN[0] + BARE_THIN[1] * inside, waiting, look);
+            self.add(span, &Gap { pixel, behind, right, away: 0, pixel_m, inside }, waiting, look);
         }
     }
 
-    /// Tells where the pixel is that was added last, and looks when many wait.
-    fn place(
-        &self,
-        span: &CrownSpan,
-        pixel_m: f32,
-        least: f32,
-        waiting: &mut Waiting,
-        look: &mut impl FnMut(&mut Waiting),
-    ) {
+    /// Puts a pixel behind those that wait, and looks when there are many.
+    fn add(&self, span: &CrownSpan, gap: &Gap, waiting: &mut Waiting, look: &mut impl FnMut(&mut Waiting)) {
         let FrameImages { depth_m, width, .. } = self.images;
-        let (at, outline) = (waiting.count, span.outline);
-        let pixel = waiting.at[at];
-        let place = &mut waiting.place;
-        place.u[at] = (pixel % *width) as f32 + 0.5;
-        place.v[at] = (pixel / *width) as f32 + 0.5;
-        place.depth_m[at] = depth_m[pixel as usize];
-        place.pixel_m[at] = pixel_m;
-        place.shift[at] = 97.0 * unit(hash(span.instance, 12));
-        for (rows, v) in [(&mut place.middle, outline.middle), (&mut place.shrink, outline.shrink)] {
-            (rows[0][at], rows[1][at], rows[2][at]) = (v.x, v.y, v.z);
-        }
-        (place.turn[0][at], place.turn[1][at]) = (outline.turn[0], outline.turn[1]);
-        place.bare[at] = f32::from(u8::from(span.is_bare));
-        place.least[at] = least;
+        let (at, pixel) = (waiting.count, gap.pixel as u32);
+        (waiting.at[at], waiting.behind[at]) = (pixel, gap.behind.map(|behind| behind as u32));
+        (waiting.right[at], waiting.away[at]) = (gap.right, gap.away);
+        let place = GapPlace {
+            crown: &span.outline,
+            is_bare: span.is_bare,
+            shift: 97.0 * unit(hash(span.instance, 12)),
+            ray: self.view.ray((pixel % *width) as f32 + 0.5, (pixel / *width) as f32 + 0.5),
+            depth_m: depth_m[gap.pixel],
+            pixel_m: gap.pixel_m,
+            inside: gap.inside,
+        };
+        waiting.places.put(at, &place);
+        waiting.has_bare |= span.is_bare;
         waiting.count += 1;
         if waiting.count == TOGETHER {
             look(waiting);
@@ -300,6 +252,9 @@ struct Gap {
     right: f32,
     /// How many pixels the edge is away.
     away: u8,
+    /// Size of a pixel there, metres, and how far inside the crown it is, as a share of how far gaps reach.
+    pixel_m: f32,
+    inside: f32,
 }
 
 impl Waiting {
@@ -309,106 +264,28 @@ impl Waiting {
         behind: [[0; 2]; TOGETHER],
         right: [0.0; TOGETHER],
         away: [0; TOGETHER],
-        place: Places {
-            u: [0.0; TOGETHER],
-            v: [0.0; TOGETHER],
-            depth_m: [1.0; TOGETHER],
-            pixel_m: [1.0; TOGETHER],
-            shift: [0.0; TOGETHER],
-            least: [0.0; TOGETHER],
-            bare: [0.0; TOGETHER],
-            middle: [[0.0; TOGETHER]; 3],
-            shrink: [[1.0; TOGETHER]; 3],
-            turn: [[0.0; TOGETHER]; 2],
-        },
+        places: GapPlaces::EMPTY,
+        has_bare: false,
         gap: [0.0; TOGETHER],
         wood: [0.0; TOGETHER],
     };
 
-    /// Puts a pixel behind those that wait.
-    fn add(&mut self, gap: Gap) {
-        let at = self.count;
-        (self.at[at], self.behind[at]) = (gap.pixel as u32, gap.behind.map(|behind| behind as u32));
-        (self.right[at], self.away[at]) = (gap.right, gap.away);
-    }
-
     /// Tells how much of the pixels that wait is gap, and notes their colours.
     fn look(&mut self, setting: &Setting, noise: &NoiseTexture, images: &FrameImages, changes: &mut [Vec<Change>]) {
-        gaps(setting.level, &self.place, &setting.view, noise, &mut self.gap);
-        let is_bare = self.place.bare[..self.count].contains(&1.0);
-        if is_bare {
-            wood(setting.level, &self.place, &setting.view, &mut self.gap, &mut self.wood);
-        } else {
-            self.wood.fill(0.0);
-        }
+        let has_bare = core::mem::take(&mut self.has_bare);
+        crown_gaps(setting.level, &self.places, setting.view.position, noise, has_bare, &mut self.gap, &mut self.wood);
         for at in 0..core::mem::take(&mut self.count) {
             let colour = |pixel: u32| images.rgb.get(3 * pixel as usize..).and_then(|rest| rest.first_chunk::<3>());
             if self.gap[at] + self.wood[at] > 0.0
                 && let [Some(left), Some(right)] = self.behind[at].map(colour)
             {
-                let share = (256.0 * self.right[at]) as i32;
-                let behind = [0, 1, 2].map(|k| {
-                    let (left, right) = (i32::from(left[k]), i32::from(right[k]));
-                    (left + (share.wrapping_mul(right - left) >> 8)) as u8
-                });
+                let behind = mixed(*left, *right, (256.0 * self.right[at]) as i32);
                 let (part, light) =
                     ((self.gap[at] * 256.0) as i32, (256.0 - (1.0 - BOUGH_SHADE) * 256.0 * self.wood[at]) as i32);
                 changes[usize::from(self.away[at])].push(Change { at: self.at[at], behind, part, light });
             }
         }
     }
-}
-
-simd_kernel! {
-    /// Share of pixels without leaves. Noise of leaves and of branches stays where it is in the world while the camera moves little.
-    fn gaps(places: &Places, view: &View, noise: &NoiseTexture, gap: &mut [f32; TOGETHER]) {
-        let view = *view;
-        let (mut rays, mut met) = (CrownRays::EMPTY, [0.0; TOGETHER]);
-        for k in 0..TOGETHER {
-            let [middle, shrink] = [&places.middle, &places.shrink].map(|rows| Vec3::new(rows[0][k], rows[1][k], rows[2][k]));
-            let outline = LeafCrown { middle, shrink, turn: [places.turn[0][k], places.turn[1][k]] };
-            rays.put(k, outline.ray(view.position, view.ray(places.u[k], places.v[k])));
-        }
-        rays.most_met(&mut met);
-        for (k, gap) in gap.iter_mut().enumerate() {
-            let ray = view.ray(places.u[k], places.v[k]);
-            let place = view.position + ray * places.depth_m[k];
-            let beyond = least(most(-BEYOND * met[k], lerp(-MOST_BEYOND, -BARE_DENSER, places.bare[k])), MOST_BEYOND);
-            // No face of a box is seen edge-on in these two directions.
-            let x = 0.8 * place.x + 0.45 * place.y + 0.3 * place.z;
-            let y = 0.35 * place.x - 0.7 * place.y + 0.85 * place.z;
-            let (pixel_m, shift) = (places.pixel_m[k], places.shift[k]);
-            let leaves = noise.rough(x * 26.0 + shift, y * 26.0, pixel_m * 26.0);
-            let branches = noise.clumps(x * 15.0, y * 15.0 + shift, pixel_m * 15.0);
-            let twigs = 0.35 * (branches - 0.5).abs() + (leaves - 0.5).abs();
-            // Twigs that are thinner than a pixel cover a part of it.
-            let fine = share(0.8 * (pixel_m * 20.0 - 0.5));
-            let twigs = lerp(twigs, places.least[k] + BARE_OPEN / STEEPNESS, fine);
-            let thin = lerp(1.7 * branches + 0.75 * leaves, twigs, places.bare[k]);
-            *gap = share((thin + beyond - places.least[k]) * STEEPNESS);
-        }
-    }
-}
-
-simd_kernel! {
-    /// Share of pixels of bare crowns that boughs cover; there are no gaps there.
-    fn wood(places: &Places, view: &View, gap: &mut [f32; TOGETHER], wood: &mut [f32; TOGETHER]) {
-        let view = *view;
-        for k in 0..TOGETHER {
-            let [middle, shrink] = [&places.middle, &places.shrink].map(|rows| Vec3::new(rows[0][k], rows[1][k], rows[2][k]));
-            let outline = LeafCrown { middle, shrink, turn: [places.turn[0][k], places.turn[1][k]] };
-            let ray = outline.ray(view.position, view.ray(places.u[k], places.v[k]));
-            let pixel = most(places.pixel_m[k] * least(shrink.x, shrink.z), 1e-4);
-            wood[k] = boughs(ray, pixel) * places.bare[k];
-            gap[k] *= 1.0 - wood[k];
-        }
-    }
-}
-
-/// Whether a label is one of people, vehicles and what they take along.
-fn is_body(label: u8) -> bool {
-    (SemanticLabel::Pedestrian.id()..=SemanticLabel::Bicycle.id()).contains(&label)
-        || label == SemanticLabel::Dynamic.id()
 }
 
 /// The crown that a face belongs to.

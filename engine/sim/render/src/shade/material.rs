@@ -68,7 +68,7 @@ pub(super) fn box_axes(b: &SceneBox, face: usize) -> FaceAxes {
     let up = if axis == 2 { axes[1] } else { Vec3::new(0.0, 0.0, 1.0) };
     let is_piece = axis != 2 && b.roof.as_deref().is_some_and(|roof| roof.top.is_some_and(|top| top.falls.is_some()));
     if axis != 2
-        && let Some(wall) = slanted(b, face)
+        && let Some(wall) = b.slanted(face)
     {
         return FaceAxes { along: wall.along, up };
     }
@@ -76,11 +76,6 @@ pub(super) fn box_axes(b: &SceneBox, face: usize) -> FaceAxes {
     let out: Vec3 = b.normal_in_world(face).into();
     let along = if is_piece { Vec3::new(-out.y, out.x, 0.0) } else { axes[usize::from(axis == 0)] };
     FaceAxes { along, up }
-}
-
-/// The slanted wall that an upright face of a box is a part of.
-fn slanted(b: &SceneBox, face: usize) -> Option<SlantedWall> {
-    b.slants.as_deref()?.get(face).copied().flatten()
 }
 
 /// Material of a face of a box.
@@ -100,7 +95,7 @@ pub(super) fn box_material(b: &SceneBox, face: usize, night: f32) -> Material {
     } else if axis == 2 {
         let roof = Roof::new(b.seed, center, axes, [half.x, half.y], b.roof_goes_on);
         Material::Roof(if b.form == BuildingForm::Tank { roof.of_sheet() } else { roof })
-    } else if let Some(SlantedWall { along, edge_m, half_width_m }) = slanted(b, face) {
+    } else if let Some(SlantedWall { along, edge_m, half_width_m }) = b.slanted(face) {
         Material::Facade(Facade::of_box(b, face, half_width_m), BoxFace { along, edge_m, foot_m: center.z - half.z })
     } else {
         let half_width = if axis == 0 { half.y } else { half.x };
