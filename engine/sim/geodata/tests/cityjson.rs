@@ -39,7 +39,7 @@ fn heights_m(town: &Town, kind: ObstacleKind) -> Vec<(f64, f64)> {
 fn is_solid(town: &Town, point: DVec3) -> bool {
     town.obstacles.iter().any(|one| {
         let away = point - one.shape.center_in_world;
-        let local = glam::DVec2::from_angle(-one.shape.yaw_rad).rotate(away.truncate()).extend(away.z);
+        let local = cosfly_frames::DVec2::from_angle(-one.shape.yaw_rad).rotate(away.truncate()).extend(away.z);
         local.abs().cmple(one.shape.half_extents_m).all()
     })
 }
@@ -82,7 +82,7 @@ fn trees_are_templates_at_their_place_and_scale() {
     let (town, _) = read(PLACE).unwrap();
     let trunk = town.obstacles.iter().find(|one| one.kind == ObstacleKind::TreeTrunk).unwrap();
     let (low, _) = trunk.shape.bounds_in_world();
-    assert!((trunk.shape.center_in_world.truncate() - glam::DVec2::new(30.0, -1.0)).length() < 0.2);
+    assert!((trunk.shape.center_in_world.truncate() - cosfly_frames::DVec2::new(30.0, -1.0)).length() < 0.2);
     let top_m = heights_m(&town, ObstacleKind::TreeCrown)[0].1;
     // The template is 4 m high, the instance twice that.
     assert!((low.z - 1.0).abs() < 1e-9 && (top_m - 9.0).abs() < 1e-9, "{low} {top_m}");
