@@ -1,6 +1,7 @@
 //! [`Body`]: one person or vehicle and its track.
 
 use crate::{BodyKind, OrientedBox};
+use cosfly_frames::track::way_m;
 use cosfly_frames::{DVec3, Seed, TargetState};
 use serde::{Deserialize, Serialize};
 
@@ -60,6 +61,6 @@ impl Body {
 
     /// Distance covered, metres.
     pub fn length_m(&self) -> f64 {
-        self.states.windows(2).map(|pair| (pair[1].feet_in_world - pair[0].feet_in_world).length()).sum()
+        way_m(&self.states)
     }
 }

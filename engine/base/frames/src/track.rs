@@ -45,6 +45,11 @@ impl TargetTrack {
 
     /// Distance walked along the ground, metres.
     pub fn length_m(&self) -> f64 {
-        self.states.windows(2).map(|pair| (pair[1].feet_in_world - pair[0].feet_in_world).length()).sum()
+        way_m(&self.states)
     }
+}
+
+/// Distance covered from the first state to the last, metres.
+pub fn way_m(states: &[TargetState]) -> f64 {
+    states.windows(2).map(|pair| (pair[1].feet_in_world - pair[0].feet_in_world).length()).sum()
 }

@@ -132,8 +132,7 @@ pub fn row_count(path: &Path) -> Result<usize> {
 /// # Errors
 /// A file is not Parquet, lacks the column, or the column has a type without a plain form.
 pub fn column(paths: &[PathBuf], name: &str) -> Result<Column> {
-    let mut arrays = vec![];
-    let mut empty = None;
+    let (mut arrays, mut empty) = (vec![], None);
     for path in paths {
         let builder = builder(path)?;
         let at = builder.schema().index_of(name);
@@ -161,8 +160,7 @@ pub fn column(paths: &[PathBuf], name: &str) -> Result<Column> {
 /// # Errors
 /// A file is not Parquet.
 pub fn stream(paths: &[PathBuf]) -> Result<ArrowStream> {
-    let mut schema: Option<SchemaRef> = None;
-    let mut readers = vec![];
+    let (mut schema, mut readers) = (None::<SchemaRef>, vec![]);
     for path in paths {
         let reader = builder(path)?.build().map_err(|error| damaged(path, "it cannot be read", error))?;
         schema.get_or_insert_with(|| arrow_array::RecordBatchReader::schema(&reader));
@@ -184,7 +182,6 @@ fn builder(path: &Path) -> Result<ParquetRecordBatchReaderBuilder<File>> {
 /// Plain values of the arrays of one column; `None` for other types.
 fn plain(arrays: &[ArrayRef]) -> Option<Column> {
     let Some(first) = arrays.first() else { return Some(Column::Reals(vec![])) };
-    let all_files = || arrays.iter().map(super::plain::files).collect::<Option<Vec<_>>>();
     match first.data_type() {
         DataType::List(_) | DataType::FixedSizeList(..) => lists(arrays),
         // The hub's images: a file and its path.
@@ -207,7 +204,7 @@ fn plain(arrays: &[ArrayRef]) -> Option<Column> {
                 Some(Column::Texts(all.collect()))
             }
             None => {
-                let parts = all_files()?;
+                let parts = arrays.iter().map(super::plain::files).collect::<Option<Vec<_>>>()?;
                 Some(Column::Files(parts.iter().flat_map(|it| it.iter().map(|it| it.map(<[u8]>::to_vec))).collect()))
             }
         },

@@ -75,7 +75,7 @@ pub(crate) fn invent_streets(town: &mut Town) -> Result<(), String> {
     let options = OpenDriveOptions { sample_step_m: PIECE_M, ..OpenDriveOptions::default() };
     let (streets, _) = OpenDrive::read(text.as_bytes(), &options)
         .map_err(|MapError { message, .. }| format!("no streets are invented: {message}"))?;
-    let length_m: f64 = plan.links.iter().map(|link| length_m(&plan.points(link))).sum();
+    let length_m: f64 = plan.links.iter().map(|link| layout::length_m(&plan.points(link))).sum();
     drape::drape(town, streets);
     town.synthetic.notes.push(format!(
         "{} streets of {:.1} km in all, with carriageways and pavements, are invented between the rows of houses \
@@ -84,8 +84,4 @@ pub(crate) fn invent_streets(town: &mut Town) -> Result<(), String> {
         1e-3 * length_m
     ));
     Ok(())
-}
-
-fn length_m(line: &[DVec2]) -> f64 {
-    line.windows(2).map(|leg| leg[0].distance(leg[1])).sum()
 }

@@ -1,5 +1,6 @@
 //! Claims of goals: what a goal says of a flight, typed, with the frames in which it holds.
 
+use crate::description::turn_name;
 use crate::facts::Wear;
 use crate::sight::{LandmarkKind, OnSide};
 use cosfly_claims::TurnKind;
@@ -163,14 +164,6 @@ impl fmt::Display for Said {
             Claim::OvertakenBy(kind) => write!(formatter, "overtaken_by {}", kind.name())?,
         }
         write!(formatter, " @ {}..{}", self.frames.start, self.frames.end)
-    }
-}
-
-pub(super) fn turn_name(kind: TurnKind) -> &'static str {
-    match kind {
-        TurnKind::Left => "left",
-        TurnKind::Right => "right",
-        TurnKind::Around => "around",
     }
 }
 

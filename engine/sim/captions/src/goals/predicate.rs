@@ -1,6 +1,7 @@
 //! Claims in words: what a target does. `{be}` and `{not}` wait for the form of the verb.
 
-use super::claim::{Claim, Passed, Said, hider_name, landmark_name, side_name, turn_name};
+use super::claim::{Claim, Passed, Said, hider_name, landmark_name, side_name};
+use crate::description::turn_name;
 use crate::messages::{Speaker, fill};
 
 /// One claim as an action of the target.

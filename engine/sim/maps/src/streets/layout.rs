@@ -124,7 +124,8 @@ fn narrow_beside(plan: &mut StreetPlan, streets: &[usize]) -> bool {
     narrowed
 }
 
-fn length_m(line: &[DVec2]) -> f64 {
+/// Length of a line, metres.
+pub(super) fn length_m(line: &[DVec2]) -> f64 {
     line.windows(2).map(|leg| leg[0].distance(leg[1])).sum()
 }
 
