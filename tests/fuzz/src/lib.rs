@@ -149,7 +149,7 @@ fn jpeg(bytes: &[u8]) {
 
 /// The boxes of a video file.
 fn mp4(bytes: &[u8]) {
-    in_a_file(bytes, "mp4", |path| drop(cosfly_doctor::sources::lerobot::video::seconds(path)));
+    in_a_file(bytes, "mp4", |path| drop(cosfly_episodes::lerobot::video::seconds(path)));
 }
 
 /// A plugin, a core module or a component: its code runs, and its answers are read by the canonical ABI.

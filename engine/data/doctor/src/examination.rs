@@ -1,10 +1,11 @@
 //! Reads a folder, runs all checks, and lists the episodes without a flag.
 
 use crate::checks::Trace;
-use crate::sources::{lerobot, ours, v7};
+use crate::sources::ours;
 use crate::texts::{GivenTexts, Judged, TextFigures, TextTally};
-use crate::{ExaminedEpisode, Flag, Severity, checks, shortcuts};
+use crate::{checks, shortcuts};
 use cosfly_diagnose::{Diagnostic, Fault, Result, Stop, absent};
+use cosfly_episodes::{ExaminedEpisode, Flag, Severity, is_of_cosfly, lerobot, v7};
 use cosfly_metrics::scanned_mesh::ScannedMesh;
 use cosfly_metrics::shortcuts::ShortcutFigures;
 use cosfly_read::{Identity, PublishedDataset};
@@ -89,7 +90,7 @@ pub fn examine(folder: &Path, quotas: &[Quota], progress: &mut dyn FnMut(u64, u6
     examine_given(folder, quotas, &HeldAgainst::default(), (&Stop::default(), progress))
 }
 
-/// What the data are held against, beside themselves.
+/// References that the data are held against, beside themselves.
 #[derive(Debug, Default)]
 pub struct HeldAgainst {
     /// Texts in the place of the data's own instructions.
@@ -119,7 +120,7 @@ pub fn examine_given(
         }
         tally.add(&episode);
     };
-    let (layout, flags, notes) = if ours::recognises(folder) {
+    let (layout, flags, notes) = if is_of_cosfly(folder) {
         let mut flags = ours::files(folder, stop)?;
         stop.check("doctor")?;
         ours::episodes(folder, &mut flags, &mut add, (stop, progress))?;

@@ -36,7 +36,7 @@ fn check_planted(name: &str, change: &dyn Fn(&mut SampleFlight)) {
 
 /// The first file below `folder` whose path has an ending.
 fn file(folder: &Path, part: &str) -> std::path::PathBuf {
-    let files = crate::files::files_below(folder).expect("a list");
+    let files = cosfly_episodes::files_below(folder).expect("a list");
     files.into_iter().find(|path| path.to_string_lossy().contains(part)).expect("such a file")
 }
 

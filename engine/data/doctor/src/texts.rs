@@ -1,11 +1,11 @@
 //! Figures of instructions: how different they are, what they speak of, how much of it is true. Anyone's texts can be given in the
 //! place of a dataset's own.
 
-use crate::ExaminedEpisode;
 use crate::walk::facts_of;
 use cosfly_captions::teaching::foreign_words;
 use cosfly_captions::{Coverage, Diversity, Facts, Language, Slot, check, claimed, coverage, diversity};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_episodes::ExaminedEpisode;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;

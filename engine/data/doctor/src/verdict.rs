@@ -1,9 +1,10 @@
 //! The verdict over flights that are about to be published: which are left out, with their reasons, decided over all of them at
 //! once.
 
+use crate::checks;
 use crate::hardness::{difficulty, too_many};
-use crate::{ExaminedEpisode, Severity, checks};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_episodes::{ExaminedEpisode, Severity};
 use cosfly_frames::Seed;
 use cosfly_schema::RenderedTrajectory;
 use cosfly_windows::Difficulty;

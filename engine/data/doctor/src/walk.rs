@@ -3,8 +3,8 @@
 //! The way turns in a frame by the angle between two chords: from the last place before it that is 3 m away as the crow flies, and to
 //! the first such place behind it; and the same with 5 m. What is clear by both chords is a turn; what one of them hints at may be one.
 
-use crate::ExaminedEpisode;
-use cosfly_captions::{Compass, Facts, LeftOut, TargetStop, Turn, TurnKind};
+use cosfly_captions::{Compass, Facts, LeftOut, TargetStop, Turn, TurnKind, Wear};
+use cosfly_episodes::ExaminedEpisode;
 use cosfly_frames::{DVec2, DVec3, real};
 
 /// Lengths of the chords, metres.
@@ -39,8 +39,8 @@ const WALK_MPS: f64 = 0.5;
 
 /// Facts of a flight; none where the target is unknown in some frames.
 pub fn facts_of(episode: &ExaminedEpisode) -> Option<Facts> {
-    if episode.whole.is_some() {
-        return episode.whole.clone();
+    if let Some(facts) = episode.whole.as_ref().and_then(|whole| facts_of(whole)) {
+        return Some(facts);
     }
     let moments = &episode.moments;
     let feet: Vec<DVec3> = (moments.iter())
@@ -90,7 +90,7 @@ pub fn facts_of(episode: &ExaminedEpisode) -> Option<Facts> {
         pitch_down_deg: mean(&pitch_down_deg),
         altitude_m: mean(&altitude_m),
         visibility: mean(&|frame| moments[frame].visible.unwrap_or_default()),
-        wear: episode.wear,
+        wear: episode.clothes.map(|(top, trousers, backpack)| Wear { top, trousers, backpack }),
         is_runner: episode.is_runner,
         left_out,
     })
@@ -261,8 +261,8 @@ fn sum_deg(angles: &[f64; 2]) -> f64 {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::ExaminedMoment;
     use TurnKind::{Around, Left, Right};
+    use cosfly_episodes::ExaminedMoment;
     use cosfly_frames::Pose;
 
     /// Places of a walk in steps of 0.6 m through the yaws (degrees), so many metres each.

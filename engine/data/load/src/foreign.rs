@@ -3,8 +3,8 @@
 use crate::tables::{self, Part};
 use crate::{FlightSource, LoadedFlight};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_doctor::{ExaminedEpisode, Flag, Severity};
 use cosfly_domain::Channel;
+use cosfly_episodes::{ExaminedEpisode, Flag, Severity};
 use cosfly_fingerprint::Digest;
 use cosfly_read::StoredImage;
 use cosfly_read::columns::TableData;

@@ -6,7 +6,7 @@ use crate::LoadedFlight;
 use arrow_array::builder::{Float64Builder, ListBuilder, StringBuilder};
 use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 use arrow_schema::{DataType, Field};
-use cosfly_doctor::{ExaminedEpisode, ExaminedMoment};
+use cosfly_episodes::{ExaminedEpisode, ExaminedMoment};
 use cosfly_frames::{DVec3, Pose, action};
 use cosfly_windows::WindowShape;
 use std::collections::BTreeMap;

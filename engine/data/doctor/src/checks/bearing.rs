@@ -1,6 +1,6 @@
 //! Plausibility of angles where the camera is unknown: a drone that shows its target looks towards it.
 
-use crate::{ExaminedEpisode, Flag};
+use cosfly_episodes::{ExaminedEpisode, Flag};
 use cosfly_frames::real;
 use std::f64::consts::{PI, TAU};
 

@@ -3,8 +3,8 @@
 use super::median::median;
 use super::motion::frames;
 use super::surface;
-use crate::episode::OFFSETS;
-use crate::{ExaminedEpisode, Flag};
+use cosfly_episodes::episode::OFFSETS;
+use cosfly_episodes::{ExaminedEpisode, Flag};
 
 /// Range of the depth of a body's surface over that of its middle.
 const RATIOS: (f64, f64) = (0.8, 1.25);
@@ -73,7 +73,7 @@ pub fn check(episode: &ExaminedEpisode) -> Vec<Flag> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{ExaminedLook, ExaminedMoment};
+    use cosfly_episodes::{ExaminedLook, ExaminedMoment};
     use cosfly_frames::{DVec3, Pose};
 
     #[test]

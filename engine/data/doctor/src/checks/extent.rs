@@ -1,7 +1,7 @@
 //! Towns whose things are kilometres apart: parts that were placed by two origins.
 
 use super::leaks::Trace;
-use crate::Flag;
+use cosfly_episodes::Flag;
 use cosfly_metrics::spread::{APART_M, widest_gap_m};
 use std::collections::BTreeMap;
 

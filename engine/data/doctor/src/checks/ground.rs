@@ -1,7 +1,7 @@
 //! A target below drawn ground: the ground that is seen around its feet lies above them.
 
 use super::median::median;
-use crate::{ExaminedEpisode, Flag};
+use cosfly_episodes::{ExaminedEpisode, Flag};
 use cosfly_metrics::drawn_ground::{BELOW_GROUND_M, is_below};
 
 /// Compares stated feet with the ground in depth images.

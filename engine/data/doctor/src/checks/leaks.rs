@@ -1,6 +1,6 @@
 //! Leaks between splits.
 
-use crate::{ExaminedEpisode, Flag};
+use cosfly_episodes::{ExaminedEpisode, Flag};
 use cosfly_frames::DVec3;
 use std::collections::BTreeMap;
 

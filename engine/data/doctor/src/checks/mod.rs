@@ -21,7 +21,7 @@ pub(crate) mod words;
 pub use extent::of_towns as extent;
 pub use leaks::{Trace, of_all as leaks};
 
-use crate::{ExaminedEpisode, Flag};
+use cosfly_episodes::{ExaminedEpisode, Flag};
 
 /// All checks of single episodes.
 const OF_EPISODES: &[fn(&ExaminedEpisode) -> Vec<Flag>] = &[

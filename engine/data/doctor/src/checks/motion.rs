@@ -1,7 +1,7 @@
 //! Frozen poses, actions that do not lead to the next pose, broken limits.
 
-use crate::{ExaminedEpisode, Flag};
 use cosfly_diagnose::counted;
+use cosfly_episodes::{ExaminedEpisode, Flag};
 use cosfly_frames::{DVec3, Pose};
 
 /// Largest difference between actions and poses, metres and degrees.

@@ -1,6 +1,6 @@
 //! Pictures that repeat.
 
-use crate::{ExaminedEpisode, Flag};
+use cosfly_episodes::{ExaminedEpisode, Flag};
 
 /// Finds equal files in neighbouring frames whose poses differ.
 pub fn check(episode: &ExaminedEpisode) -> Vec<Flag> {

@@ -3,8 +3,8 @@
 
 use super::median::median;
 use super::motion::frames;
-use crate::{ExaminedEpisode, Flag};
 use cosfly_domain::Camera;
+use cosfly_episodes::{ExaminedEpisode, Flag};
 use cosfly_frames::Pose;
 
 /// Largest distance of a box's middle from the projected middle: share of the box's height, and pixels.

@@ -1,6 +1,6 @@
 //! Flights against the scan that they were flown in.
 
-use crate::{ExaminedEpisode, Flag};
+use cosfly_episodes::{ExaminedEpisode, Flag};
 use cosfly_frames::DVec3;
 use cosfly_metrics::scanned_mesh::ScannedMesh;
 

@@ -3,8 +3,8 @@
 
 use super::median::median;
 use super::motion::frames;
-use crate::episode::OFFSETS;
-use crate::{ExaminedEpisode, Flag};
+use cosfly_episodes::episode::OFFSETS;
+use cosfly_episodes::{ExaminedEpisode, Flag};
 
 /// Smallest number of frames with walls in view for a verdict.
 const ENOUGH: usize = 4;

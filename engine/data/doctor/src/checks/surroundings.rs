@@ -1,7 +1,7 @@
 //! Obstacles that are too near, targets inside of vehicles, targets that are seldom visible.
 
-use crate::{ExaminedEpisode, Flag};
 use cosfly_diagnose::counted;
+use cosfly_episodes::{ExaminedEpisode, Flag};
 use cosfly_frames::real;
 
 /// Share of frames with less than half of the target visible from which a flight is imperfect.

@@ -1,6 +1,6 @@
 //! Times that decrease, repeat or jump.
 
-use crate::{ExaminedEpisode, Flag};
+use cosfly_episodes::{ExaminedEpisode, Flag};
 
 /// Largest difference of a step from the usual one, as a share.
 const TOLERANCE: f64 = 0.02;

@@ -1,7 +1,7 @@
 //! Pictures and tables of one version: where a log says that the camera was, and what of the target it shows, is in the tables.
 
 use super::median::median;
-use crate::{ExaminedEpisode, Flag};
+use cosfly_episodes::{ExaminedEpisode, Flag};
 
 /// Flags an episode most of whose pictures are of another flight than its rows.
 pub fn check(episode: &ExaminedEpisode) -> Vec<Flag> {

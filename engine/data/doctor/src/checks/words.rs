@@ -1,8 +1,8 @@
 //! Instructions that differ from their flights.
 
 use crate::walk::facts_of;
-use crate::{ExaminedEpisode, Flag};
 use cosfly_captions::{Language, check as check_caption};
+use cosfly_episodes::{ExaminedEpisode, Flag};
 
 /// Parses every instruction in a known language and compares it with the facts of the flight.
 pub fn check(episode: &ExaminedEpisode) -> Vec<Flag> {

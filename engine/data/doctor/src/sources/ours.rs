@@ -1,14 +1,11 @@
 //! Datasets of cosfly: tables, then a stretch of frames of every log.
 
-use super::stretch;
-use crate::episode::{OFFSETS, depth_in_box};
-use crate::walk::facts_of;
 use crate::walls::{self, Walls};
-use crate::whole_files::{log_problem, parquet_problem};
-use crate::{ExaminedEpisode, ExaminedLook, ExaminedMoment, Flag};
-use cosfly_captions::{Facts, Wear};
 use cosfly_diagnose::{Diagnostic, Fault, Result, Stop};
 use cosfly_domain::{BodyKind, Colour, TARGET_INSTANCE};
+use cosfly_episodes::episode::{OFFSETS, depth_in_box, stretch};
+use cosfly_episodes::whole_files::{log_problem, parquet_problem};
+use cosfly_episodes::{ExaminedEpisode, ExaminedLook, ExaminedMoment, Flag};
 use cosfly_fingerprint::Digest;
 use cosfly_frames::DVec3;
 use cosfly_metrics::drawn_ground::DrawnGround;
@@ -17,6 +14,7 @@ use cosfly_schema::tables::Pairs;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Flights whose logs are read side by side.
 const TOGETHER: usize = 32;
@@ -26,11 +24,6 @@ const IN_PLACE_M: f64 = 0.01;
 
 /// An episode without its looks, its flight, and the frames of the flight.
 type Read = (ExaminedEpisode, PublishedFlight, Vec<FrameRow>);
-
-/// Whether `folder` has this layout.
-pub fn recognises(folder: &Path) -> bool {
-    folder.join("data/trajectories").is_dir()
-}
 
 /// Faults of the files. Each is read to its end, with its checksums.
 ///
@@ -47,7 +40,7 @@ pub fn files(folder: &Path, stop: &Stop) -> Result<Vec<Flag>> {
             None
         }
     };
-    Ok(crate::files::files_below(folder)?.par_iter().filter_map(fault).collect())
+    Ok(cosfly_episodes::files_below(folder)?.par_iter().filter_map(fault).collect())
 }
 
 /// Gives all flights to `visit`, one at a time; logs that cannot be read were flagged by [`files`] and are passed over. Where
@@ -114,7 +107,7 @@ fn read(
         episode.looks = looks(dataset, &flight, &rows, walls, stop).unwrap_or_default();
         episode
     };
-    let whole = facts_of_whole_flights(dataset)?;
+    let whole = whole_flights(dataset)?;
     let (mut done, all) = (0, dataset.flights().len() as u64);
     let mut visit_all = |together: &mut Vec<Read>| {
         let episodes: Vec<ExaminedEpisode> = std::mem::take(together).into_par_iter().map(logged).collect();
@@ -150,23 +143,23 @@ fn is_whole(flight: &PublishedFlight) -> bool {
     flight.every == 1 && flight.begins_ns == 0
 }
 
-/// Facts of the flights of which a camera films a part, by the film of another camera that has every frame, where there is one: texts are
-/// of the whole flight.
-fn facts_of_whole_flights(dataset: &PublishedDataset) -> Result<BTreeMap<String, Facts>> {
+/// The flights of which a camera films a part, by the film of another camera that has every frame, where there is one: texts are of the
+/// whole flight.
+fn whole_flights(dataset: &PublishedDataset) -> Result<BTreeMap<String, Arc<ExaminedEpisode>>> {
     let (films, parts): (Vec<_>, Vec<_>) = dataset.flights().iter().partition(|flight| is_whole(flight));
     let parts: BTreeSet<&str> = parts.into_iter().map(|film| film.flight_id.as_str()).collect();
     let wanted: BTreeMap<&str, &str> = (films.into_iter().filter(|film| parts.contains(film.flight_id.as_str())))
         .map(|film| (film.flight_id.as_str(), film.trajectory_id.as_str()))
         .collect();
     let wanted: BTreeSet<&str> = wanted.into_values().collect();
-    let mut facts = BTreeMap::new();
+    let mut whole = BTreeMap::new();
     if !wanted.is_empty() {
         dataset.walk(&|flight| wanted.contains(flight.trajectory_id.as_str()), &mut |flight, rows| {
-            facts.extend(facts_of(&episode(flight, &rows)).map(|facts| (flight.flight_id.clone(), facts)));
+            whole.insert(flight.flight_id.clone(), Arc::new(episode(flight, &rows)));
             Ok(())
         })?;
     }
-    Ok(facts)
+    Ok(whole)
 }
 
 /// Longest displacement of each perturbed trajectory in a single frame, metres: of kind `jumps`; 0 of kinds that could be flown.
@@ -199,10 +192,10 @@ fn named(flight: &PublishedFlight) -> ExaminedEpisode {
 }
 
 /// Clothes of the target of a flight.
-fn wear(flight: &PublishedFlight) -> Option<Wear> {
+fn clothes(flight: &PublishedFlight) -> Option<(Colour, Colour, bool)> {
     let (top, trousers, backpack) = flight.target_clothes.as_ref()?;
     let colour = |name: &str| Colour::ALL.into_iter().find(|colour| colour.name() == name);
-    Some(Wear { top: colour(top)?, trousers: colour(trousers)?, backpack: *backpack })
+    Some((colour(top)?, colour(trousers)?, *backpack))
 }
 
 fn episode(flight: &PublishedFlight, rows: &[FrameRow]) -> ExaminedEpisode {
@@ -235,7 +228,7 @@ fn episode(flight: &PublishedFlight, rows: &[FrameRow]) -> ExaminedEpisode {
         depth_is_along_rays: flight.lens.is_wide(&flight.camera),
         target_height_m: flight.target_height_m,
         is_runner: flight.target_kind.as_deref() == Some(BodyKind::Runner.name()),
-        wear: wear(flight),
+        clothes: clothes(flight),
         is_unlike_all: flight.target_clothes.as_ref().map(|_| rows.iter().all(|row| row.look_alikes == 0)),
         dt_s: flight.dt_s,
         limits: flight.limits,

@@ -1,8 +1,7 @@
 //! Flights that are not published yet: from records to episodes.
 
-use crate::{ExaminedEpisode, ExaminedMoment};
-use cosfly_captions::Wear;
 use cosfly_domain::{BodyKind, Perturbation, PixelBox, TargetView};
+use cosfly_episodes::{ExaminedEpisode, ExaminedMoment};
 use cosfly_frames::{DVec3, action};
 use cosfly_schema::{RenderedTrajectory, Role};
 
@@ -30,7 +29,7 @@ pub fn episode(record: &RenderedTrajectory) -> ExaminedEpisode {
         camera: is_plain.then_some(record.camera),
         target_height_m: trajectory.track.height_m,
         is_runner: record.target_kind() == Some(BodyKind::Runner),
-        wear: record.outfit.as_ref().map(Wear::from),
+        clothes: record.outfit.as_ref().map(|it| (it.top.name, it.trousers.name, it.backpack)),
         is_unlike_all: record.outfit.as_ref().map(|_| (0..record.len()).all(|frame| record.look_alikes(frame) == 0)),
         dt_s: record.dt_s(),
         limits: limits.map(|limit| limit.is_finite().then_some(limit)),

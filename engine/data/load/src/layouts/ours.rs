@@ -3,7 +3,6 @@
 use crate::layout::Layout;
 use crate::{FlightSource, LoadedFlight};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_doctor::sources;
 use cosfly_domain::Channel;
 use cosfly_read::columns::TableData;
 use cosfly_read::{ImageLog, PublishedDataset, StoredImage};
@@ -13,7 +12,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 pub(super) const LAYOUT: Layout = Layout {
     doc: "cosfly (`files.parquet`)",
-    recognises: sources::ours::recognises,
+    recognises: cosfly_episodes::is_of_cosfly,
     open: |folder| Ok(Box::new(Ours::open(folder)?)),
 };
 

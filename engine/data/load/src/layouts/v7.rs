@@ -4,9 +4,9 @@ use crate::LoadedFlight;
 use crate::foreign::{Foreign, Pictures, damaged, identity, sound};
 use crate::layout::Layout;
 use cosfly_diagnose::{Diagnostic, Result};
-use cosfly_doctor::sources::v7;
 use cosfly_domain::Channel;
 use cosfly_domain::channels::Element;
+use cosfly_episodes::v7;
 use cosfly_images::read::{self, Picture};
 use cosfly_read::StoredImage;
 use prost::bytes::Bytes;
@@ -27,7 +27,7 @@ fn open(root: &Path) -> Result<Foreign<Frames>> {
     let (episodes, flags) = v7::motions(root)?;
     sound(root, &flags)?;
     let traces: Vec<PathBuf> = episodes.iter().map(|episode| root.join(&episode.id)).collect();
-    let flight = |(episode, trace): (&cosfly_doctor::ExaminedEpisode, &PathBuf)| {
+    let flight = |(episode, trace): (&cosfly_episodes::ExaminedEpisode, &PathBuf)| {
         let stated = episode.camera.map(|camera| [camera.width, camera.height]);
         Ok(LoadedFlight {
             id: episode.id.clone(),

@@ -7,9 +7,9 @@ use crate::exit;
 use crate::text::count;
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, plausible};
-use cosfly_doctor::{
-    Examination, GivenTexts, HeldAgainst, Layout, Probe, Severity, ShortcutFigures, TextFigures, examine_given,
-};
+use cosfly_doctor::{Examination, GivenTexts, HeldAgainst, Layout, TextFigures, examine_given};
+use cosfly_episodes::Severity;
+use cosfly_metrics::shortcuts::{Probe, ShortcutFigures};
 use std::fmt::Write;
 use std::path::PathBuf;
 

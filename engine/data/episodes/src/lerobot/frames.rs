@@ -4,7 +4,7 @@ use super::actions::RecordedActions;
 use super::features::{self, Features, pose};
 use super::info::split;
 use super::listed::Listed;
-use crate::sources::stretch;
+use crate::episode::stretch;
 use crate::{ExaminedEpisode, ExaminedLook, ExaminedMoment, Flag};
 use cosfly_diagnose::plausible;
 use cosfly_frames::{DVec3, Pose};

@@ -2,8 +2,8 @@
 
 use super::actions::RecordedActions;
 use super::frames::Frames;
+use crate::episode::stretch;
 use crate::episode::{OFFSETS, depth_in_box};
-use crate::sources::stretch;
 use crate::{ExaminedLook, Flag};
 use cosfly_images::float_tiff;
 use cosfly_read::{PictureColumn, PictureFile, inner_path};

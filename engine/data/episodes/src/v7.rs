@@ -1,7 +1,6 @@
 //! The layout of the published CosFly-Track data: `<Town>/trajectory_<id>/<trace>/trajectory.json` with a folder per frame.
 
-use super::stretch;
-use crate::episode::{OFFSETS, depth_in_box};
+use crate::episode::{OFFSETS, depth_in_box, stretch};
 use crate::{ExaminedEpisode, ExaminedLook, ExaminedMoment, Flag};
 use cosfly_diagnose::{Diagnostic, Result, plausible};
 use cosfly_domain::Camera;

@@ -1,8 +1,8 @@
-//! A flight as the checks see it: the values of its files, absent where the files have none.
+//! A flight of any layout: the values of its files, absent where the files have none.
 
-use cosfly_captions::{Facts, Wear};
-use cosfly_domain::Camera;
+use cosfly_domain::{Camera, Colour};
 use cosfly_frames::{DVec3, Pose};
+use std::sync::Arc;
 
 /// A flight. World frame: CARLA's (x east, y south, z up), metres, radians.
 #[derive(Clone, Debug, Default)]
@@ -34,8 +34,8 @@ pub struct ExaminedEpisode {
     pub target_height_m: f64,
     /// Whether the target is of the kind `runner`.
     pub is_runner: bool,
-    /// Clothes of the target, where they are known.
-    pub wear: Option<Wear>,
+    /// Clothes of the target, where they are known: colours of top and trousers, and whether there is a backpack.
+    pub clothes: Option<(Colour, Colour, bool)>,
     /// Whether nobody else who is seen in the flight wears the same; none where it is unknown.
     pub is_unlike_all: Option<bool>,
     /// Time between frames, seconds: as stated, else as most frames have it.
@@ -48,8 +48,8 @@ pub struct ExaminedEpisode {
     pub followed: Option<Vec<Pose>>,
     /// Pictures of some frames.
     pub looks: Vec<ExaminedLook>,
-    /// Facts of the whole flight, of which the episode's frames are a part: those of the film that texts speak of.
-    pub whole: Option<Facts>,
+    /// The whole flight, of which the episode's frames are a part: the film that texts speak of.
+    pub whole: Option<Arc<ExaminedEpisode>>,
     /// Whether the frames are a part of the flight's, and its other frames are unknown.
     pub is_part: bool,
     /// Language code and text of the instructions.
@@ -102,6 +102,16 @@ pub struct ExaminedLook {
     pub elsewhere_m: Option<f64>,
     /// Height of the drawn ground around the target's feet over them, metres.
     pub rise_m: Option<f64>,
+}
+
+/// Number of consecutive frames whose pictures are read, in the middle of a flight.
+const LOOKS: usize = 16;
+
+/// The stretch of `frames` whose pictures are read.
+pub fn stretch(frames: usize) -> std::ops::Range<usize> {
+    let count = LOOKS.min(frames);
+    let start = (frames - count) / 2;
+    start..start + count
 }
 
 /// Offsets of the frames whose boxes and poses a depth image is compared with; the own frame first.
