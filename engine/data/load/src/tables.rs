@@ -83,8 +83,8 @@ fn trajectories(parts: &[Part<'_>]) -> Columns {
         ("role", integers(each().map(role))),
         ("frames", integers(each().map(|it| it.0.frames))),
         ("dt_s", reals(each().map(|it| Some(it.1.dt_s)))),
-        ("image_width_px", integers(each().map(|it| it.0.size[0] as usize))),
-        ("image_height_px", integers(each().map(|it| it.0.size[1] as usize))),
+        ("camera_width_px", integers(each().map(|it| it.0.size[0] as usize))),
+        ("camera_height_px", integers(each().map(|it| it.0.size[1] as usize))),
     ]
 }
 

@@ -1,5 +1,6 @@
 //! Flights that are the same from all layouts.
 
+use crate::tables::NAMES;
 use crate::{FlightSource, LoadedFlight, open};
 use cosfly_domain::{Channel, channels};
 use cosfly_images::read;
@@ -198,6 +199,18 @@ fn datasets_of_all_layouts_are_told_apart_and_known_again_in_a_copy() {
     let refusals =
         [ours.check().err(), ours.table("frames", None).err(), ours.image(0, &channels::rgb::CHANNEL, 0).err()];
     assert!(refusals.iter().all(|it| it.as_ref().is_some_and(|it| it.code == "dataset-changed")), "{refusals:?}");
+}
+
+#[test]
+fn columns_of_other_layouts_are_columns_of_cosfly() {
+    let (_home, [ours, v7, lerobot]) = published();
+    let columns = |folder: &Path, table: &str| open(folder).unwrap().table(table, None).unwrap().columns().unwrap();
+    for (folder, table) in [&v7, &lerobot].into_iter().flat_map(|folder| NAMES.iter().map(move |table| (folder, table)))
+    {
+        let own = columns(&ours, table);
+        let strange: Vec<_> = columns(folder, table).into_iter().filter(|name| !own.contains(name)).collect();
+        assert!(strange.is_empty(), "table `{table}` of cosfly has no {strange:?}");
+    }
 }
 
 #[test]
