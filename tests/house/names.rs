@@ -56,6 +56,34 @@ fn public_types(root: &Path) -> BTreeSet<String> {
     types
 }
 
+/// Rooms that hand on names of another: file, whose names, why.
+const HANDED_ON: [(&str, &str, &str); 4] = [
+    ("base/frames/src/lib.rs", "cosfly_random", "poses and seeds are the two things that every engine starts from"),
+    (
+        "sim/captions/src/lib.rs",
+        "cosfly_claims",
+        "`data` may see captions, and the words that texts are judged by through them",
+    ),
+    ("sim/planner/src/config/mod.rs", "cosfly_surroundings", "a front names the types of its own settings"),
+    ("edge/experts/src/plugins/mod.rs", "cosfly_plugin_host", "builds without plugins have a stand-in"),
+];
+
+#[test]
+fn a_use_line_says_whose_names_it_takes() {
+    let engine = crate::support::repository_root().join("engine");
+    let mut files = vec![];
+    crate::repository::rust_files(&engine, &mut files);
+    let mut found = BTreeSet::new();
+    for file in files {
+        let text = std::fs::read_to_string(&file).expect("UTF-8");
+        let name = file.strip_prefix(&engine).expect("below").display().to_string();
+        let handed = text.lines().filter_map(|line| line.trim_start().strip_prefix("pub use cosfly_"));
+        found.extend(handed.map(|rest| (name.clone(), format!("cosfly_{}", rest.split("::").next().unwrap_or("")))));
+    }
+    let listed = HANDED_ON.iter().map(|(file, whose, _)| ((*file).to_owned(), (*whose).to_owned())).collect();
+    assert_eq!(found, listed, "import names from the room that has them, or say in this list why not");
+}
+
 #[test]
 fn no_two_crates_show_types_of_one_name() {
     let mut shown: BTreeMap<String, Vec<String>> = BTreeMap::new();

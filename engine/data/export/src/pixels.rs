@@ -9,7 +9,7 @@ use flate2::Compression;
 use flate2::write::GzEncoder;
 use std::io::Write;
 
-pub use cosfly_images::rgb::png as rgb_png;
+use cosfly_images::rgb::png as rgb_png;
 
 /// Row-major RGB bytes of a frame's colour image, checked to have the frame's size.
 pub fn rgb_of(logged: &LoggedFrame) -> Result<Vec<u8>> {

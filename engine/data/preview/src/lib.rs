@@ -11,7 +11,6 @@ mod sheet;
 mod shot;
 mod town;
 
-pub use cosfly_read::LoggedFrame;
 pub use pictures::{FlightPictures, clip, draw};
 pub use selection::FrameList;
 pub use shot::ClipShot;

@@ -1,8 +1,9 @@
 //! The files of a frame: `rgb.png`, `depth.npy`, `instance.png`, `debug.png`.
 
 use super::short_ids::ShortIds;
-use crate::pixels::{npy, rgb_of, rgb_png};
+use crate::pixels::{npy, rgb_of};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_images::rgb::png as rgb_png;
 use cosfly_read::LoggedFrame;
 
 /// Depth of the sky in CARLA's depth camera, metres.
