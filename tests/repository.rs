@@ -14,6 +14,7 @@ fn heavy_crates_stay_in_their_one_room() {
         ("parquet", &["shelf data"][..]),
         ("mcap", &["shelf data"][..]),
         ("clap", &["cosfly", "shelf lab"][..]),
+        ("cosfly-stages", &["cosfly", "shelf lab"][..]),
         ("indicatif", &["cosfly", "cosfly-lab"][..]),
         ("roxmltree", &["cosfly-maps"][..]),
         ("obvhs", &["cosfly-lab"][..]),

@@ -2,6 +2,7 @@
 
 use crate::command::Refusals;
 use crate::console::Console;
+use crate::recipe_file;
 use clap::Args;
 use clap::builder::TypedValueParser;
 use cosfly_diagnose::Diagnostic;
@@ -34,11 +35,10 @@ impl RecipeArguments {
     }
 
     fn read(&self, console: &dyn Console) -> Result<Recipe, Refusals> {
-        let registry = cosfly_stages::registry();
         if self.recipe != Path::new("-") {
-            let path = if self.recipe.is_dir() { self.recipe.join("recipe.toml") } else { self.recipe.clone() };
-            return Ok(cosfly_recipe::load(&path, &self.overrides, &registry)?);
+            return Ok(recipe_file::load(&self.recipe, &self.overrides)?);
         }
+        let registry = cosfly_stages::registry();
         let mut text = String::new();
         let read = console.input().read_to_string(&mut text);
         read.map_err(|error| Diagnostic::io("read standard input", &error))?;

@@ -12,6 +12,7 @@ mod gone;
 mod interrupt;
 mod output;
 mod progress;
+pub mod recipe_file;
 mod reporter;
 mod subject;
 mod text;

@@ -329,8 +329,7 @@ type Made = (Arc<[EpisodeTask]>, FlySettings);
 
 fn made(recipe: &std::path::Path, overrides: &[String], store: &std::path::Path) -> Result<Made, Refusal> {
     let one = |refusal: Box<Diagnostic>| Refusal::Work(vec![refusal]);
-    let recipe = if recipe.is_dir() { recipe.join("recipe.toml") } else { recipe.to_owned() };
-    let recipe = cosfly_recipe::load(&recipe, overrides, &cosfly_stages::registry()).map_err(Refusal::Work)?;
+    let recipe = cosfly::recipe_file::load(recipe, overrides).map_err(Refusal::Work)?;
     let settings = FlySettings::of(&recipe).map_err(one)?;
     let store = Store::open(store).map_err(one)?;
     let jobs = std::thread::available_parallelism().map_or(1, usize::from);
