@@ -6,7 +6,7 @@ use cosfly_domain::{BodyId, BodyView, Traffic, largest_object_instance};
 use cosfly_experts::artifacts;
 use cosfly_figures::Bystander;
 use cosfly_film::nearby::{NearbyBodies, NearbyWalk};
-use cosfly_film::{Person, Shooting};
+use cosfly_film::{BodyOnTrack, Shooting};
 use cosfly_flight::World;
 use cosfly_schema::{OtherBody, Sighting};
 use cosfly_stage::{Artifact, Inputs};
@@ -14,7 +14,7 @@ use cosfly_stage::{Artifact, Inputs};
 /// Other people around one flight, by instance id.
 #[derive(Default)]
 pub struct Crowd {
-    members: Vec<(OtherBody, Person)>,
+    members: Vec<(OtherBody, BodyOnTrack)>,
 }
 
 impl Crowd {
@@ -23,14 +23,14 @@ impl Crowd {
         let Some(artifact) = inputs.all(nearby::NAME).first() else { return Ok(Self::default()) };
         let read = |NearbyWalk { instance, walk_id }: NearbyWalk| {
             let (walk, followed) = artifacts::linked_walk(inputs, artifact, &walk_id)?;
-            Ok(member(instance, walk_id, Person::on(&walk, followed.as_ref())?))
+            Ok(member(instance, walk_id, BodyOnTrack::on(&walk, followed.as_ref())?))
         };
         let mut members: Vec<_> =
             artifacts::NEARBY.read(inputs, artifact)?.into_iter().map(read).collect::<Result<_>>()?;
         for NearbyBodies { instances, around } in artifacts::NEARBY_BODIES.find(inputs, artifact)?.unwrap_or_default() {
             for (instance, (number, body)) in instances.into_iter().zip(around.bodies()) {
                 let body_id = Traffic::body_id(&around.traffic.name, number);
-                members.push(member(instance, body_id, Person::of(body, around.traffic.dt_s)));
+                members.push(member(instance, body_id, BodyOnTrack::of(body, around.traffic.dt_s)));
             }
         }
         members.sort_by_key(|(other, _)| other.instance);
@@ -43,7 +43,7 @@ impl Crowd {
         for (number, body) in artifacts::DRONES.find(inputs, flight)?.unwrap_or_default().bodies(dt_s) {
             let instance = BodyId::of_drone(number).and_then(|id| id.instance(largest_object));
             let instance = instance.ok_or_else(|| nearby::too_many(flight))?;
-            let person = Person::of(&body, dt_s);
+            let person = BodyOnTrack::of(&body, dt_s);
             self.members.push(member(instance, body.plan.source, person));
         }
         self.members.sort_by_key(|(other, _)| other.instance);
@@ -71,7 +71,7 @@ impl Crowd {
 
     /// Adds all people at a time, seconds from the flight's first frame.
     pub fn at(&self, time_s: f64, list: &mut Vec<Bystander>) {
-        let bystander = |(other, person): &(OtherBody, Person)| {
+        let bystander = |(other, person): &(OtherBody, BodyOnTrack)| {
             Some(Bystander { walker: person.walker(time_s)?, instance: other.instance })
         };
         list.extend(self.members.iter().filter_map(bystander));
@@ -92,6 +92,6 @@ impl Crowd {
     }
 }
 
-fn member(instance: u32, body_id: String, person: Person) -> (OtherBody, Person) {
+fn member(instance: u32, body_id: String, person: BodyOnTrack) -> (OtherBody, BodyOnTrack) {
     (OtherBody { instance, body_id, plan: person.plan().clone(), outfit: person.outfit() }, person)
 }

@@ -105,7 +105,7 @@ impl Stage for ScanStage {
         let looks =
             record.followed.as_ref().map_or_else(|| walk_seed(&record.trajectory.track), |it| Ok(it.plan.looks))?;
         let clothes_seed = clothes_seed_of_target(&looks, 0.0);
-        let body = |time_s: f64, (instance, person): &(u32, cosfly_film::Person)| {
+        let body = |time_s: f64, (instance, person): &(u32, cosfly_film::BodyOnTrack)| {
             let mut walker = person.walker(time_s)?;
             if *instance == TARGET_INSTANCE {
                 walker.clothes_seed = clothes_seed;

@@ -9,7 +9,7 @@ use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_domain::{TARGET_INSTANCE, Traffic};
 use cosfly_experts::codec;
 use cosfly_experts::world::{check_same_town, world};
-use cosfly_film::Person;
+use cosfly_film::BodyOnTrack;
 use cosfly_film::nearby::{Candidate, Candidates};
 use cosfly_flight::World;
 use cosfly_frames::Seed;
@@ -157,7 +157,7 @@ pub fn put(outputs: &mut dyn OutputSink, source: &ExtraSource, values: Vec<Value
 
 /// Everybody whom sensors may meet, with instance ids as in pictures: those at port `others` who are in the pictures or nobody's way, the
 /// traffic around the target, and the target.
-pub fn people(inputs: &Inputs<'_>, world: &World, record: &RenderedTrajectory) -> Result<Vec<(u32, Person)>> {
+pub fn people(inputs: &Inputs<'_>, world: &World, record: &RenderedTrajectory) -> Result<Vec<(u32, BodyOnTrack)>> {
     let (flight, target) = (&record.trajectory, record.followed.as_ref());
     let mut candidates = Candidates::new(&world.town, (flight, record.times().s(0)), target);
     for (stage, artifacts) in inputs.all("others").chunk_by(|a, b| a.id.stage == b.id.stage).enumerate() {
@@ -170,9 +170,9 @@ pub fn people(inputs: &Inputs<'_>, world: &World, record: &RenderedTrajectory) -
     let of_traffic = around.bodies().map(|(number, body)| {
         let body_id = Traffic::body_id(&around.traffic.name, number);
         let seen = record.others.iter().find(|other| other.body_id == body_id);
-        (seen.map_or(u32::MAX - number, |other| other.instance), Person::of(body, around.traffic.dt_s))
+        (seen.map_or(u32::MAX - number, |other| other.instance), BodyOnTrack::of(body, around.traffic.dt_s))
     });
-    let target = (flight.track.radius_m > 0.0).then(|| (TARGET_INSTANCE, Person::target(&flight.track, target)));
-    let others = others.into_iter().map(|it| (it.instance, Candidate::into_person(it)));
+    let target = (flight.track.radius_m > 0.0).then(|| (TARGET_INSTANCE, BodyOnTrack::target(&flight.track, target)));
+    let others = others.into_iter().map(|it| (it.instance, Candidate::into_body(it)));
     Ok(others.chain(of_traffic).chain(target).collect())
 }

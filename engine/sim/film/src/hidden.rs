@@ -2,7 +2,7 @@
 
 use crate::body_rays::BodyRays;
 use crate::shooting::Shooting;
-use crate::walks::Person;
+use crate::walks::BodyOnTrack;
 use cosfly_domain::{Around, Followed, Trajectory};
 use cosfly_figures::Bystander;
 use cosfly_frames::Seed;
@@ -15,8 +15,9 @@ const MOST_SEEN: f64 = 0.25;
 /// around the target.
 pub fn hidden(flight: &Trajectory, boxes: &BoxBvh, around: &Around, followed: Option<&Followed>) -> Vec<bool> {
     let track = &flight.track;
-    let target = Person::target(track, followed);
-    let others: Vec<Person> = around.bodies().map(|(_, body)| Person::of(body, around.traffic.dt_s)).collect();
+    let target = BodyOnTrack::target(track, followed);
+    let others: Vec<BodyOnTrack> =
+        around.bodies().map(|(_, body)| BodyOnTrack::of(body, around.traffic.dt_s)).collect();
     let camera = Shooting::plain(Seed([0; 32])).camera;
     let mut rays = BodyRays::default();
     let mut is_hidden = |frame: usize| {

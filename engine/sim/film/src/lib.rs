@@ -17,4 +17,4 @@ pub mod shooting;
 pub mod walks;
 
 pub use shooting::Shooting;
-pub use walks::{Person, followed_on};
+pub use walks::{BodyOnTrack, followed_on};

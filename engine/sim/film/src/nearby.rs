@@ -3,7 +3,7 @@
 use crate::body_rays;
 use crate::rate::{FilmedFlight, Rate};
 use crate::shooting::Shooting;
-use crate::walks::{Person, touch};
+use crate::walks::{BodyOnTrack, touch};
 use cosfly_diagnose::Result;
 use cosfly_domain::{Around, BodyId, Camera, Followed, Town, Traffic, Trajectory, largest_object_instance};
 use cosfly_frames::{Pose, TargetState};
@@ -39,7 +39,7 @@ pub struct Candidate {
     pub origin: Origin,
     /// Place among the candidates: that of their stage, then that of the item.
     place: usize,
-    person: Person,
+    person: BodyOnTrack,
 }
 
 /// Origin of a track.
@@ -86,7 +86,7 @@ impl<'a> Candidates<'a> {
         for (number, body) in (0..).zip(&traffic.bodies).filter(|(_, body)| !body.states.is_empty()) {
             if !self.target.is_some_and(|it| it.is(&traffic.name, number)) {
                 let instance = self.instance(stage, number as usize)?;
-                self.add(instance, Origin::Body(Arc::clone(traffic), number), Person::of(body, traffic.dt_s));
+                self.add(instance, Origin::Body(Arc::clone(traffic), number), BodyOnTrack::of(body, traffic.dt_s));
             }
         }
         Ok(())
@@ -95,7 +95,7 @@ impl<'a> Candidates<'a> {
     /// Adds walk number `item` of stage number `stage`; `followed` where it is not a grown person on foot. `Some` is the reason why that cannot be.
     ///
     /// # Errors
-    /// Those of [`Person::on`].
+    /// Those of [`BodyOnTrack::on`].
     pub fn add_walk(
         &mut self,
         (stage, item): (usize, usize),
@@ -110,7 +110,7 @@ impl<'a> Candidates<'a> {
             Ok(instance) => instance,
             Err(refused) => return Ok(Some(refused)),
         };
-        let person = Person::on(walk, followed)?;
+        let person = BodyOnTrack::on(walk, followed)?;
         if person.meets(&self.flight.track) {
             self.left_out += 1;
         } else {
@@ -123,7 +123,7 @@ impl<'a> Candidates<'a> {
         BodyId::of(stage, item).and_then(|id| id.instance(self.largest_object)).ok_or(CandidateRefusal::NoId)
     }
 
-    fn add(&mut self, instance: u32, origin: Origin, person: Person) {
+    fn add(&mut self, instance: u32, origin: Origin, person: BodyOnTrack) {
         let (place, person) = (self.all.len(), person.since(self.begins_s));
         self.all.push(Candidate { instance, place, origin, person });
     }
@@ -153,7 +153,7 @@ impl Candidates<'_> {
 
 impl Candidate {
     /// The person or vehicle.
-    pub fn into_person(self) -> Person {
+    pub fn into_body(self) -> BodyOnTrack {
         self.person
     }
 }
@@ -213,7 +213,7 @@ impl Origin {
 /// from each other do not know of each other. More people change nothing for those before them.
 pub fn apart(mut near: Vec<Candidate>, trajectory: &Trajectory, target: Option<&Followed>) -> Vec<Candidate> {
     let track = &trajectory.track;
-    let flown_at = Person::target(track, target);
+    let flown_at = BodyOnTrack::target(track, target);
     let target_states = flown_at.states(track);
     near.sort_by_key(|candidate| candidate.place);
     let mut kept: Vec<(Candidate, Vec<Option<TargetState>>)> = vec![];

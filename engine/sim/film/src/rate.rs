@@ -2,7 +2,7 @@
 //! as its film has it.
 
 use crate::Shooting;
-use crate::walks::{Person, walked_m};
+use crate::walks::{BodyOnTrack, walked_m};
 use cosfly_domain::{Around, FramePerturbation, OrientedBox, Trajectory};
 use cosfly_frames::{Pose, TargetState, TargetTrack, real};
 use cosfly_geometry::SpatialQuery;
@@ -279,7 +279,7 @@ fn later_around(around: &Around, after_s: f64) -> Around {
     let traffic = &mut later.traffic;
     traffic.frames = traffic.frames.saturating_sub(1);
     for body in &mut traffic.bodies {
-        let person = Person::of(body, traffic.dt_s);
+        let person = BodyOnTrack::of(body, traffic.dt_s);
         let state = |frame: u32| person.state(f64::from(frame) * traffic.dt_s + after_s);
         body.first_frame = (0..traffic.frames).find(|frame| state(*frame).is_some()).unwrap_or_default();
         body.states = (0..traffic.frames).filter_map(state).collect();

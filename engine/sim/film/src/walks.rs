@@ -13,7 +13,7 @@ use cosfly_pedestrians::PedestrianPath;
 const APART_M: f64 = 0.6;
 
 /// A person or vehicle on a track that has at least one state.
-pub struct Person {
+pub struct BodyOnTrack {
     track: TargetTrack,
     /// Time of the track's first state, seconds from the flight's first frame.
     first_s: f64,
@@ -24,8 +24,8 @@ pub struct Person {
     body: BodyShape,
 }
 
-impl Person {
-    /// The person on `walk`; `followed` where it is not a grown person on foot.
+impl BodyOnTrack {
+    /// The body on `walk`; `followed` where it is not a grown person on foot.
     pub fn on(walk: &PedestrianPath, followed: Option<&Followed>) -> Result<Self> {
         let track = walk.track.clone();
         let plan = match followed {
@@ -51,12 +51,12 @@ impl Person {
         Self { walked_m: walked_m(&track.states), track, first_s, comes_and_goes: true, plan, body: shape }
     }
 
-    /// The person by a clock that begins some seconds later.
+    /// The body by a clock that begins some seconds later.
     pub fn since(self, begins_s: f64) -> Self {
         Self { first_s: self.first_s - begins_s, ..self }
     }
 
-    /// Properties of the person that do not change.
+    /// Properties of the body that do not change.
     pub fn plan(&self) -> &BodyPlan {
         &self.plan
     }
@@ -76,8 +76,8 @@ impl Person {
         outfit_of(self.body, &self.plan.looks)
     }
 
-    /// State at a time, seconds from the flight's first frame; `None` where the person is absent. At the end of a walk the
-    /// person stands still.
+    /// State at a time, seconds from the flight's first frame; `None` where the body is absent. At the end of a walk the
+    /// body stands still.
     pub fn state(&self, time_s: f64) -> Option<TargetState> {
         let (states, step) = (&self.track.states, self.step(time_s)?);
         let state = target_state_at(states, step);
@@ -85,12 +85,12 @@ impl Person {
         Some(TargetState { speed_mps: if is_over { 0.0 } else { state.speed_mps }, ..state })
     }
 
-    /// Box around the body at a time, seconds from the flight's first frame; `None` where the person is absent.
+    /// Box around the body at a time, seconds from the flight's first frame; `None` where the body is absent.
     pub fn box_at(&self, time_s: f64) -> Option<OrientedBox> {
         self.state(time_s).map(|state| self.plan.box_at(&state))
     }
 
-    /// State and looks at a time, seconds from the flight's first frame; `None` where the person is absent.
+    /// State and looks at a time, seconds from the flight's first frame; `None` where the body is absent.
     pub fn walker(&self, time_s: f64) -> Option<Walker> {
         let step = self.step(time_s)?;
         let first = step as usize;
@@ -99,7 +99,7 @@ impl Person {
         Some(Walker { body: self.body, ..Walker::of(&self.plan, self.state(time_s)?, walked_m) })
     }
 
-    /// True where the person walks through a target with a body.
+    /// True where the body walks through a target with a body.
     pub fn meets(&self, target: &TargetTrack) -> bool {
         let near = |(frame, state): (usize, &TargetState)| {
             let own = self.state(frame as f64 * target.dt_s);
@@ -108,7 +108,7 @@ impl Person {
         target.radius_m > 0.0 && target.states.iter().enumerate().any(near)
     }
 
-    /// States in the frames of a flight; `None` where the person is absent.
+    /// States in the frames of a flight; `None` where the body is absent.
     pub fn states(&self, flight: &TargetTrack) -> Vec<Option<TargetState>> {
         (0..flight.len()).map(|frame| self.state(frame as f64 * flight.dt_s)).collect()
     }

@@ -2,7 +2,7 @@
 
 use cosfly_diagnose::Result;
 use cosfly_domain::{BodyPlan, Followed, Traffic};
-use cosfly_film::Person;
+use cosfly_film::BodyOnTrack;
 use cosfly_frames::TargetState;
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_world::{Population, Snapshot, contacts};
@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 /// People who walk as their own stages made them, and stand where their walks end.
 #[derive(Default)]
 pub struct Avoided {
-    people: Vec<Person>,
+    people: Vec<BodyOnTrack>,
     now_s: f64,
 }
 
@@ -19,16 +19,16 @@ impl Avoided {
     /// Adds all bodies of a traffic that one of the walks was taken out of.
     pub fn add_traffic(&mut self, traffic: &Traffic) {
         let bodies = traffic.bodies.iter().filter(|body| !body.states.is_empty());
-        self.people.extend(bodies.map(|body| Person::of(body, traffic.dt_s)));
+        self.people.extend(bodies.map(|body| BodyOnTrack::of(body, traffic.dt_s)));
     }
 
     /// Adds somebody on a walk, `followed` where it is not a grown person on foot; nobody where it has no steps.
     ///
     /// # Errors
-    /// Those of [`Person::on`].
+    /// Those of [`BodyOnTrack::on`].
     pub fn add_walk(&mut self, walk: &PedestrianPath, followed: Option<&Followed>) -> Result<()> {
         if !walk.track.is_empty() {
-            self.people.push(Person::on(walk, followed)?);
+            self.people.push(BodyOnTrack::on(walk, followed)?);
         }
         Ok(())
     }
