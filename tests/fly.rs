@@ -210,6 +210,7 @@ fn a_result_is_one_file_whose_actions_come_to_the_same_rows() {
     for (out, policy, more) in [
         ("plain", "follow", &[][..]),
         ("late", "random", &["--latency-ms", "250"]),
+        ("dark", "follow", &["--blackouts", "2"]),
         ("measured", "follow", &["--latency-ms", "measured"]),
         ("windy", "expert", &["--drone", "pelican", "--wind-mps", "3", "--gusts", "--logs", "none"]),
     ] {

@@ -38,4 +38,4 @@ pub use readings::readings;
 pub use reward::Reward;
 pub use score::{End, EpisodeScore};
 pub use settings::{Blackouts, DroneSettings, EnvironmentSettings, FieldOfView, RewardWeights};
-pub use suite::{MOST_LATENCY_MS, MOST_WIND_MPS, SuiteTable};
+pub use suite::{MOST_BLACKOUTS, MOST_LATENCY_MS, MOST_WIND_MPS, SuiteTable};

@@ -6,6 +6,8 @@ use serde::{Deserialize, Serialize};
 
 /// Fastest mean wind, m/s.
 pub const MOST_WIND_MPS: f64 = 30.0;
+/// Most blackouts of an episode.
+pub const MOST_BLACKOUTS: u32 = 10;
 /// Longest time from an observation to the effect of its action, milliseconds.
 pub const MOST_LATENCY_MS: u32 = 5000;
 
@@ -23,7 +25,7 @@ pub struct SuiteTable {
     /// Whether the wind carries gusts. Default false.
     pub gusts: bool,
     /// Number of stretches of an episode in which the camera sees nothing, each of two to four seconds. Default 0.
-    #[schemars(range(min = 0, max = 10))]
+    #[schemars(range(min = 0, max = MOST_BLACKOUTS))]
     pub blackouts: u32,
     /// Time from an observation to the effect of the action that answers it, milliseconds. Default 0.
     #[schemars(range(min = 0, max = MOST_LATENCY_MS))]

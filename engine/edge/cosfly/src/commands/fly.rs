@@ -16,7 +16,7 @@ use crate::subject::Subject;
 use clap::{Parser, Subcommand, ValueEnum};
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_drone::models::{self, DroneModel};
-use cosfly_env::{DroneSettings, EnvironmentSettings, MOST_LATENCY_MS, MOST_WIND_MPS};
+use cosfly_env::{DroneSettings, EnvironmentSettings, MOST_BLACKOUTS, MOST_LATENCY_MS, MOST_WIND_MPS};
 use cosfly_fly::flight::Latency;
 use cosfly_fly::pilot::Place;
 use cosfly_fly::results::{Card, EnvironmentCard, Folder, KeptCard, LogChoice, SuiteCard, beside};
@@ -99,6 +99,9 @@ pub struct Arguments {
     /// Gusts in the wind
     #[arg(long)]
     gusts: bool,
+    /// Stretches of an episode in which the camera sees nothing, each of two to four seconds [default: that of the suite, else 0]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=i64::from(MOST_BLACKOUTS)))]
+    blackouts: Option<u32>,
     #[command(flatten)]
     asked: PolicyArguments,
     /// Episodes whose logs are also written for Foxglove (MCAP): all, those that have clips, none
@@ -302,6 +305,7 @@ impl Arguments {
             return refused("wind does not move a point mass");
         }
         let (step_s, sensors) = (seconds(self.step_ms), self.asked.sensors(place));
+        let suite = FlySettings { blackouts: self.blackouts.unwrap_or(suite.blackouts), ..*suite };
         Ok(EnvironmentSettings { step_s, latency_s, drone, sensors, ..suite.environment() })
     }
 

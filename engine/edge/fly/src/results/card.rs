@@ -9,7 +9,9 @@ use cosfly_domain::Channel;
 use cosfly_domain::channels::{self, rgb};
 use cosfly_drone::models;
 use cosfly_env::pictures::PictureFormat;
-use cosfly_env::{Blackouts, DroneSettings, EnvironmentSettings, MOST_LATENCY_MS, MOST_WIND_MPS, RewardWeights};
+use cosfly_env::{
+    Blackouts, DroneSettings, EnvironmentSettings, MOST_BLACKOUTS, MOST_LATENCY_MS, MOST_WIND_MPS, RewardWeights,
+};
 use cosfly_render::PictureLook;
 use cosfly_sensors::SensorSet;
 use serde::{Deserialize, Serialize};
@@ -91,7 +93,7 @@ pub struct PolicyCard {
     /// Sensors whose readings are in its observations.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sensors: Vec<String>,
-    /// What a network in ONNX sees: the observations that its inputs are fed with.
+    /// Observations that the inputs of a network in ONNX are fed with.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub observations: Vec<String>,
     /// The baseline that it is, with its variation, such as `follow-gain0.5-delay0-noise0`.
@@ -291,13 +293,14 @@ impl EnvironmentCard {
     /// The settings that the card is of, flown on a suite with these settings.
     ///
     /// # Errors
-    /// What differs, in words, where no options of this cosfly give such a card.
+    /// The difference, in words, where no options of this cosfly give such a card.
     fn settings(&self, suite: &FlySettings) -> Result<EnvironmentSettings, String> {
         // A step of a year would be flown for a year.
         within("step_s", self.step_s, 0.01, 1.0)?;
         within("latency_s", self.latency_s, 0.0, f64::from(MOST_LATENCY_MS) / 1000.0)?;
         within("wind_mps", self.wind_mps, 0.0, MOST_WIND_MPS)?;
-        let plain = suite.environment();
+        within("blackouts.count", f64::from(self.blackouts.count), 0.0, f64::from(MOST_BLACKOUTS))?;
+        let plain = FlySettings { blackouts: self.blackouts.count, ..*suite }.environment();
         let model = models::model(&self.drone)?;
         let drone = DroneSettings { model, wind_mps: self.wind_mps, gusts: self.gusts, ..plain.drone };
         let settings = EnvironmentSettings { step_s: self.step_s, latency_s: self.latency_s, drone, ..plain };
@@ -324,7 +327,7 @@ impl Card {
     /// Settings of each part of a suite that the card is of.
     ///
     /// # Errors
-    /// What differs, in words, where no options of this cosfly give such a card.
+    /// The difference, in words, where no options of this cosfly give such a card.
     pub fn settings(&self, parts: &[SuitePart]) -> Result<Vec<EnvironmentSettings>, String> {
         if let Some(name) = self.environments.keys().find(|name| parts.iter().all(|part| part.name != **name)) {
             return Err(format!("it has settings for `{name}`, which is no part of the suite"));
