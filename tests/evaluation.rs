@@ -156,6 +156,9 @@ fn what_cannot_be_scored_is_refused_with_a_way_out() {
         insta::assert_snapshot!(name, format!("exit code {code}\n{}", printed.stderr));
         assert!(!street.path().join("strangers-evaluation").exists());
     }
+    let swapped = cosfly(&["eval", "strangers.jsonl", "out/street"]).within(street.path()).run();
+    assert_eq!(swapped.code, Some(4));
+    assert!(swapped.stderr.contains("the dataset comes first"), "{}", swapped.stderr);
 }
 
 #[test]

@@ -24,6 +24,9 @@ const GONE: &[(&str, &str, &str)] = &[
     ("ask-expert", "--horizon", "write `--horizon-s`"),
 ];
 
+/// Replacement of a file behind `--json` of `cosfly doctor`.
+const DOCTOR_FILE: &str = "`--json` prints; write `--out FILE` for a file";
+
 /// The error of a command line with the way out, where it is about a former word. `command` is the first word of the line.
 pub fn explained(command: &str, error: clap::Error) -> clap::Error {
     match replacement(command, &error) {
@@ -49,6 +52,9 @@ fn replacement(command: &str, error: &clap::Error) -> Option<&'static str> {
     };
     let Some(ContextValue::String(word)) = error.get(kind) else { return None };
     let word = word.split(['=', ' ']).next()?;
+    if (command, word.starts_with('-')) == ("doctor", false) && error.kind() == ErrorKind::UnknownArgument {
+        return Some(DOCTOR_FILE);
+    }
     let of = if error.kind() == ErrorKind::InvalidSubcommand { "" } else { command };
     GONE.iter().find(|(command, former, _)| (*command, *former) == (of, word)).map(|entry| entry.2)
 }
@@ -65,6 +71,8 @@ mod tests {
             let error = cli().try_get_matches_from(line).unwrap_err();
             assert_eq!(replacement(command, &error), Some(*advice), "{command} {former}: {error}");
         }
+        let error = cli().try_get_matches_from(["cosfly", "doctor", "data", "--json", "found.json"]).unwrap_err();
+        assert_eq!(replacement("doctor", &error), Some(DOCTOR_FILE));
         let error = cli().try_get_matches_from(["cosfly", "fly", "--never"]).unwrap_err();
         assert_eq!(replacement("fly", &error), None);
     }

@@ -164,6 +164,10 @@ struct Reports {
 }
 
 fn reports(arguments: &Arguments) -> Result<Reports> {
+    if arguments.dataset.is_file() {
+        let opened = PublishedDataset::open(&arguments.dataset).map(drop);
+        opened.map_err(|refusal| refusal.hint("the dataset comes first: `cosfly eval DATASET PREDICTIONS`"))?;
+    }
     if let Some((path, kind)) = picture_kind(arguments)? {
         let dataset = PublishedDataset::open(&arguments.dataset)?;
         let flights = Flights::read(&dataset)?;

@@ -33,7 +33,7 @@ Walks over the same ground in opposite directions are counted; they are leaks wi
 )]
 pub struct Arguments {
     /// Folders of finished datasets, judged as one dataset
-    #[arg(required = true, value_name = "DIR")]
+    #[arg(required = true, value_name = "DATASET")]
     dirs: Vec<PathBuf>,
     /// A town must be in one split only, so that `val` and `test` show unseen towns
     #[arg(long)]
