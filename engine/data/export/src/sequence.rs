@@ -78,7 +78,7 @@ pub fn box_text([left, top, right, bottom]: Edges) -> String {
     format!("{},{},{},{}", left + 1.0, top + 1.0, right - left, bottom - top)
 }
 
-/// What cards say about all sequences.
+/// Text of cards about all sequences.
 pub const CARD: &str = "\
 Pictures count from 1 without gaps; `sequences.jsonl` has the flight, the first frame and the distance between frames of every
 sequence: picture `n` is frame `first_frame + (n - 1) * every`. Boxes are left, top, width and height in pixels; as in these

@@ -7,7 +7,7 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::BodyKind;
 use cosfly_read::FrameRow;
 
-/// What cards say about these sequences.
+/// Text of cards about these sequences.
 pub const CARD: &str = "\
 A sequence begins with the first frame that shows the target, from which trackers start. Flights that never show one are left out.
 ";

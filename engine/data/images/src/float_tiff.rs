@@ -73,7 +73,7 @@ fn packed(values: &[f32], width: usize) -> std::io::Result<Vec<u8>> {
 /// Values of a TIFF file, row by row, with the numbers of columns and rows.
 ///
 /// # Errors
-/// What is damaged, or written otherwise than [`file`] does; in words.
+/// The damage, or the difference from what [`file`] writes; in words.
 pub fn read(file: &[u8]) -> Result<(Vec<f32>, [usize; 2]), String> {
     let short = |at: usize| Some(usize::from(u16::from_le_bytes(*file.get(at..)?.first_chunk()?)));
     let long = |at: usize| Some(u32::from_le_bytes(*file.get(at..)?.first_chunk()?) as usize);

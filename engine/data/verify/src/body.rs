@@ -16,7 +16,7 @@ const NEAR_M: f64 = 1e-6;
 /// Slack of projected edges, pixels: pixels are sampled at their centres.
 pub const SLACK_PX: f64 = 1.5;
 
-/// What is wrong with the size of a body of a kind, metres; the outline is asked of those who take something along.
+/// Fault of the size of a body of a kind, metres, in words; the outline is asked of those who take something along.
 pub fn size_problem(kind: BodyKind, height_m: f64, outline_m: Option<[f64; 2]>) -> Option<String> {
     let (name, walking) = (kind.name(), kind.row().walking.as_ref()?);
     if let Some([low, high]) =

@@ -28,7 +28,7 @@ const ALLOWED_M: f64 = 0.15;
 /// Share of the points that may be wrong: rounded rays beside edges.
 const ALLOWED_SHARE: f64 = 0.02;
 
-/// What is drawn of a pitched roof, which rays meet, lies at most so far below the upper face of its box, metres.
+/// Largest depth of a drawn pitched roof, which rays meet, below the upper face of its box, metres.
 const ROOF_M: f64 = 1.6;
 /// Share of a crown's box around its middle that round crowns fill; boxes so many times longer than wide are rows of trees,
 /// with gaps anywhere.
@@ -37,7 +37,7 @@ const ROW: f64 = 3.0;
 
 /// Boxes of a town that rays meet as boxes: cars are drawn as vehicles.
 struct Boxes {
-    /// What no ray passes: buildings without their roofs, the middles of crowns; benches, stalls and static things are open.
+    /// Boxes that no ray passes: buildings without their roofs, the middles of crowns; benches, stalls and static things are open.
     solid: BoxBvh,
     /// All boxes by their instance id.
     things: BTreeMap<u32, Vec<OrientedBox>>,
@@ -270,7 +270,7 @@ fn compare(sweeps: &[Sweep], logged: &[LoggedSweep], begins_ns: u64) -> ReadResu
     Ok(())
 }
 
-/// What is wrong with the sweeps of a flight with these poses.
+/// Faults of the sweeps of a flight with these poses, in words.
 ///
 /// # Errors
 /// The first fault, in words.
@@ -394,7 +394,7 @@ mod tests {
         ((0..10).map(sweep).collect(), poses, boxes)
     }
 
-    /// What is read of a table of two sweeps whose clouds have these bytes, after `spoil` has changed the file.
+    /// Outcome of reading a table of two sweeps whose clouds have these bytes, after `spoil` has changed the file.
     fn read(clouds: [&[u8]; 2], spoil: fn(&mut Vec<u8>)) -> ReadResult<usize> {
         let reals = || Arc::new(Float64Array::from(vec![0.0, 0.1])) as ArrayRef;
         let ids = Arc::new(StringArray::from(vec!["a"; 2])) as ArrayRef;

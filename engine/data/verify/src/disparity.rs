@@ -50,7 +50,7 @@ impl KnownDepths {
         Self { depths: depths.enumerate().step_by(EVERY).collect() }
     }
 
-    /// What is wrong with the disparities of a frame.
+    /// Fault of the disparities of a frame, in words.
     pub fn finding(&self, flight: &PlacedFlight, channel: &Channel, stored: &[u8]) -> Option<String> {
         let measure = MEASURES.iter().find(|measure| measure.channel == channel);
         if *channel != disparity::CHANNEL && measure.is_none() {
@@ -81,7 +81,7 @@ impl KnownDepths {
     }
 }
 
-/// What is wrong with measured depths of these pixels, with exact and measured disparities: each is a whole number of steps; single ones may
+/// Fault of measured depths of these pixels, with exact and measured disparities: each is a whole number of steps; single ones may
 /// be far off, half of them may not; and the larger ones are the larger ones.
 fn measured_finding(both: &[(usize, f64, f64)], measure: &Measure) -> Option<String> {
     let off_grid = |px: f64| (STEPS * px - (STEPS * px).round()).abs() > OFF_GRID;

@@ -183,7 +183,7 @@ fn turned(way: DVec3, angle_rad: f64) -> DVec3 {
 /// Strips of a film from what its log says of its camera; none where rows between its frames cannot be told.
 ///
 /// # Errors
-/// What is wrong with them, in words.
+/// The fault, in words.
 pub fn readout_of(
     flight: &PlacedFlight,
     ends: Option<&str>,

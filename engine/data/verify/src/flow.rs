@@ -17,7 +17,7 @@ const LIMB_MPS: f64 = 8.0;
 const LIMB_M: f64 = 1.0;
 const NEAREST_M: f64 = 0.5;
 
-/// What carries a point.
+/// Carrier of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Carrier {
     /// Nothing: it stands, or is the sky.
@@ -58,7 +58,7 @@ impl ComparedPoints {
         self.points.iter().filter(|(_, kind)| *kind == Carrier::Ground).filter_map(end).collect()
     }
 
-    /// What is wrong with the flow or the mask of a frame.
+    /// Fault of the flow or the mask of a frame, in words.
     pub fn finding(&self, film: Film<'_>, (frame, channel): (usize, &Channel), stored: &[u8]) -> Option<String> {
         let (ChannelSource::Flow(to) | ChannelSource::FlowValid(to)) = channel.source else { return None };
         let Some(beside) = beside(film.frames.len(), frame, to) else {

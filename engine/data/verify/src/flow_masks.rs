@@ -42,7 +42,7 @@ impl FlowMasks {
         problem(&std::mem::take(&mut self.waiting), &self.now, flight)
     }
 
-    /// What is wrong with the mask of a frame; one to the next frame waits for it.
+    /// Fault of the mask of a frame, in words; one to the next frame waits for it.
     pub fn finding(
         &mut self,
         points: &ComparedPoints,
@@ -65,7 +65,7 @@ impl FlowMasks {
     }
 }
 
-/// What is wrong with points that go to a frame with these depths.
+/// Fault of points that go to a frame with these depths, in words.
 fn problem(ends: &[End], depths: &[f32], flight: &PlacedFlight) -> Option<String> {
     let (width, height) = (flight.camera.width as usize, flight.camera.height as usize);
     if depths.len() != width * height {

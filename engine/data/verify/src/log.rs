@@ -106,7 +106,7 @@ struct LogCheck<'a> {
     /// The last label image and its frame, likewise.
     labels: Option<(usize, messages::RawImage)>,
     on_ground: BodiesOnGround,
-    /// What the last frame's other pictures are compared with.
+    /// References for the other pictures of the last frame.
     on_request: OnRequest,
     is_ours: bool,
     /// Strips of its pictures; none where they are unknown.

@@ -9,7 +9,7 @@ use super::surfaces::Surfaces;
 use cosfly_domain::channels::{ChannelSource, normals};
 use cosfly_domain::{Channel, SemanticLabel};
 
-/// What is known of a frame before its other pictures come.
+/// Knowledge of a frame before its other pictures come.
 pub struct KnownFrame<'a> {
     /// Number of the frame.
     pub frame: usize,
@@ -29,7 +29,7 @@ pub struct KnownFrame<'a> {
     pub carries: &'a dyn Fn(u32) -> Option<Carrier>,
 }
 
-/// What the last frame's pictures are compared with.
+/// References for the pictures of the last frame.
 #[derive(Default)]
 pub struct OnRequest {
     frame: Option<usize>,
@@ -62,7 +62,7 @@ impl OnRequest {
         self.masks.begin(flight, depths)
     }
 
-    /// What is wrong with a picture of a frame: rule and words.
+    /// Fault of a picture of a frame: rule and words.
     pub fn finding(
         &mut self,
         film: Film<'_>,
@@ -91,7 +91,7 @@ impl OnRequest {
         }
     }
 
-    /// What is wrong with the mask of the target's seen pixels.
+    /// Fault of the mask of the target's seen pixels, in words.
     fn mask_problem(&self, stored: &[u8]) -> Option<String> {
         let found: Vec<usize> = (0..stored.len()).filter(|at| stored[*at] != 0).collect();
         let is_same = found == self.of_target;
@@ -99,7 +99,7 @@ impl OnRequest {
         (!is_same).then(|| format!("its {found} pixels are not the {expected} with the target's id"))
     }
 
-    /// What is wrong with the mask of the target without obstacles.
+    /// Fault of the mask of the target without obstacles, in words.
     fn amodal_problem(&self, stored: &[u8], width: usize, row: &PlacedFrame) -> Option<String> {
         let pixels: Vec<usize> = (0..stored.len()).filter(|at| stored[*at] != 0).collect();
         let found = edges(&pixels, width);

@@ -44,7 +44,7 @@ pub struct Carrying<'a> {
     pub boxes: Option<&'a BoxBvh>,
 }
 
-/// What is wrong with the readings of a flight.
+/// Faults of the readings of a flight, in words.
 ///
 /// # Errors
 /// The first fault, in words.

@@ -204,7 +204,7 @@ fn each_flight(path: &Path, visit: &mut dyn FnMut(&str, &mut SensedRows, bool)) 
 }
 
 impl SensedRows {
-    /// What is wrong with the readings of a flight with these poses.
+    /// Faults of the readings of a flight with these poses, in words.
     ///
     /// # Errors
     /// The first fault, in words.
@@ -234,7 +234,7 @@ impl SensedRows {
         Ok(())
     }
 
-    /// What was measured is near the truth.
+    /// Measured numbers are near the truth.
     fn check_errors(&self) -> Result<(), String> {
         let is_fix = self.numbers.get("is_fix");
         for (name, measured) in &self.numbers {

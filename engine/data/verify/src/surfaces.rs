@@ -54,7 +54,7 @@ impl Surfaces {
         Self((0..ids.len()).step_by(EVERY).filter_map(normal).collect())
     }
 
-    /// What is wrong with the normals of the frame.
+    /// Fault of the normals of the frame, in words.
     pub fn finding(&self, stored: &[u8]) -> Option<String> {
         let part = |byte: u8| (f64::from(byte) - 128.0) / 127.0;
         let found = |pixel: usize| match *stored.get(3 * pixel..3 * pixel + 3)? {

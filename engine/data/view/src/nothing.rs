@@ -12,7 +12,7 @@ pub struct NothingSubject {
 }
 
 impl NothingSubject {
-    /// What is called `name`, and cannot be shown because of `refusal`.
+    /// Subject `name`, which cannot be shown because of `refusal`.
     pub fn new(name: String, refusal: &Diagnostic) -> Self {
         let words = [&refusal.message].into_iter().chain(&refusal.causes).chain(&refusal.hints);
         Self { name, words: words.map(|text| without_secrets(text)).collect() }

@@ -3,7 +3,7 @@
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use serde_json::{Value, json};
 
-/// What the page shows: flights by their numbers from 0. All values are JSON; the page shows texts as texts.
+/// Subject of the page: flights by their numbers from 0. All values are JSON; the page shows texts as texts.
 pub trait ViewSubject: Send + Sync {
     /// Name, kind (`dataset`, `result` or `recipe`), channels, and `version`: another one where pictures are others.
     ///

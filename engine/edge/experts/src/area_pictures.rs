@@ -15,7 +15,7 @@ const MOST_SIDE: u32 = 8192;
 const PIXEL_M: [f64; 2] = [0.02, 100.0];
 /// Most by which a pixel may be wider than high, or higher than wide: more is a wrong place.
 const MOST_STRETCH: f64 = 1.1;
-/// What a picture must be.
+/// Form of a picture of an area.
 const FORM: &str = "a grey PNG of 8 bits a pixel, without transparency: white has the whole `weight`, black none; \
     `magick FILE -alpha off -colorspace Gray -depth 8 -define png:color-type=0 MASK.png` writes one";
 

@@ -137,7 +137,7 @@ pub fn link_walk(walk: &Artifact, walk_id: &str, outputs: &mut dyn OutputSink) -
     Ok(())
 }
 
-/// What [`link_walk`] linked; `None` for a grown person on foot.
+/// Body that [`link_walk`] linked; `None` for a grown person on foot.
 ///
 /// # Errors
 /// Those of [`Kind::read`].

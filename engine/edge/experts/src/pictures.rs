@@ -30,7 +30,7 @@ pub fn needs_of_offsets(config: &RenderConfig) -> Vec<StageNeed> {
     config.cameras.iter().filter_map(need).collect()
 }
 
-/// What the key `camera` of a sensor needs: a film of that camera.
+/// Need of the key `camera` of a sensor: a film of that camera.
 pub fn needs_camera(camera: Option<&str>) -> Vec<StageNeed> {
     let need =
         |name: &str| StageNeed::Variant { parameter: "camera".to_owned(), port: "frames", name: name.to_owned() };

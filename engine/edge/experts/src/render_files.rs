@@ -203,7 +203,7 @@ pub fn scan_notes(config: &RenderConfig) -> (Vec<String>, Vec<String>) {
     (notes, warnings)
 }
 
-/// What the frames of a film show of its scan.
+/// Figures of a scan in the frames of a film.
 #[derive(Clone, Debug, Default)]
 pub struct ScanTally {
     /// Median distances from the geometry by frame, metres.

@@ -154,7 +154,7 @@ impl Bundle {
         Ok(Self { card, episodes, policy: None })
     }
 
-    /// The same with the file of its policy.
+    /// Bundle with the file of its policy.
     ///
     /// # Errors
     /// `fly-bundle` where the card names another file.
@@ -219,7 +219,7 @@ impl Bundle {
     /// Reads the bytes of a file.
     ///
     /// # Errors
-    /// What is wrong with them, in words.
+    /// The fault, in words.
     pub fn of_bytes(bytes: &[u8]) -> std::result::Result<Self, String> {
         let mut text = String::new();
         let reader = zstd::stream::read::Decoder::new(bytes).map_err(|error| error.to_string())?;
@@ -240,7 +240,7 @@ impl Bundle {
     /// Reads the lines of a file, without that of the digest.
     ///
     /// # Errors
-    /// What is wrong with them, in words.
+    /// The fault, in words.
     pub fn of_text(text: &str) -> std::result::Result<Self, String> {
         let mut lines = text.lines().zip(1..);
         let head = lines.next().map_or("", |it| it.0);

@@ -301,7 +301,7 @@ fn files_of(films: &RecipeStage) -> Vec<PathBuf> {
     films.sources.iter().map(|source| source.path.clone()).collect()
 }
 
-/// What a suite's digest holds of the scan that pictures show: policies see it. Nothing where there is none.
+/// Part of a suite's digest about the scan that pictures show: policies see it. Nothing where there is none.
 fn scan_of(films: &RecipeStage, pictures: &RenderConfig) -> Result<String> {
     if pictures.mesh.is_none() && pictures.splats.is_none() {
         return Ok(String::new());

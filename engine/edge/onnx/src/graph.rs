@@ -14,7 +14,7 @@ const OPSETS: std::ops::RangeInclusive<i64> = 13..=24;
 pub struct Node {
     /// Its name, or its output's, with its operator: for errors.
     pub place: String,
-    /// What it does.
+    /// Its operator.
     pub operator: &'static Operator,
     /// Slots of its inputs.
     pub inputs: Vec<Option<usize>>,

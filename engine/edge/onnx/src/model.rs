@@ -23,7 +23,7 @@ impl OnnxModel {
     /// Reads a file.
     ///
     /// # Errors
-    /// What is wrong with it and where, in words.
+    /// The fault and its place, in words.
     pub fn read(bytes: &[u8]) -> Result<Self, String> {
         let mut file = file::read(bytes)?;
         let graph = Graph::of(&mut file)?;

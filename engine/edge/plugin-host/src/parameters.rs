@@ -26,7 +26,7 @@ pub fn check_schema(text: &str) -> Result<Value, String> {
 /// Checks `given` as recipes check `params`: names, types, ranges and listed values, at every depth.
 ///
 /// # Errors
-/// What is wrong with the first wrong parameter, and what is allowed.
+/// Fault of the first wrong parameter, and what is allowed.
 pub fn check_given(schema: &Value, given: &Map<String, Value>) -> Result<(), String> {
     check_table(schema, given, "")
 }

@@ -12,7 +12,7 @@ use std::fmt;
 pub enum Bump {
     /// No change: the same files.
     None,
-    /// The same records, packed or described differently.
+    /// Equal records, packed or described differently.
     Patch,
     /// Unchanged old records, and new ones.
     Minor,
@@ -56,7 +56,7 @@ pub enum Fate {
     Dropped,
     /// Different bytes.
     Changed,
-    /// The same bytes, in another split.
+    /// Equal bytes, in another split.
     Moved,
 }
 

@@ -36,7 +36,7 @@ pub struct StageProperties {
     /// Name that a dataset has for what the stage makes of an item, such as a table; a port that gathers extras takes each name once an
     /// item. Not part of the key.
     pub gives: Option<String>,
-    /// What the stage asks of those that it reads; not part of the key.
+    /// Needs of the stage from those that it reads; not part of the key.
     pub needs: Vec<StageNeed>,
     /// Role of the stage; not part of the key.
     pub role: StageRole,
@@ -67,7 +67,7 @@ impl StageProperties {
     }
 }
 
-/// What a parameter asks of the stages at a port: checked with the recipe, before anything is made.
+/// Need of a parameter from the stages at a port: checked with the recipe, before anything is made.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StageNeed {
     /// Some item at the port is a variant of this name.

@@ -76,14 +76,14 @@ impl Format for Ros2 {
     }
 }
 
-/// What a camera filmed of a flight.
+/// Film of a flight by one camera.
 struct Film<'a> {
     episode: &'a ExportedFlight<'a>,
     names: &'a CameraNames,
     bodies: Vec<SeenBody>,
 }
 
-/// What the films' logs have of sensors, each sensor from the first film that has it.
+/// Sensors of the films' logs, each from the first film that has it.
 fn of_each<S, T>(
     films: &[Film<'_>],
     read: impl Fn(&ExportedFlight<'_>) -> Result<Vec<(S, T)>>,
@@ -238,7 +238,7 @@ impl<'a> Recording<'a> {
         Ok(found)
     }
 
-    /// What a camera has at a moment, and the place of the drone, since the first film may have no frame then.
+    /// Messages of a camera at a moment, and the place of the drone, since the first film may have no frame then.
     fn write_pictures(
         &self,
         bag: &mut Bag<'_>,

@@ -105,7 +105,7 @@ fn crossed(row: &SpaceRow, heading_rad: f64) -> Option<&'static str> {
     pairs.into_iter().find(|(left, right)| to_right(left, right).is_some_and(|way_m| way_m < 0.0)).map(|(left, _)| left)
 }
 
-/// What is wrong with a key point of a body whose visible pixels have these edges.
+/// Fault of a key point of a body whose visible pixels have these edges, in words.
 fn point_problem(it: &FlightRows<'_>, camera: &Pose, point: &SeenKeyPoint, seen: Option<[f64; 4]>) -> Option<String> {
     let [u, v] = point.pixel;
     let Some((right, down, depth_m)) = it.flight.project(camera, point.point_in_world) else {

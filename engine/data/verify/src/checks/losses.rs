@@ -31,7 +31,7 @@ pub fn check(it: &FlightRows<'_>, report: &mut VerifyReport) {
     }
 }
 
-/// What the row says otherwise than the frames of the stretch.
+/// Difference between the row and the frames of the stretch, in words.
 fn problem(it: &FlightRows<'_>, lost: &[PlacedFrame], row: &LossRow) -> Option<String> {
     let (start, count) = (lost[0].frame, lost.len() as u32);
     let end = start + count;

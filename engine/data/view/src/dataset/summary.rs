@@ -10,7 +10,7 @@ use cosfly_schema::tables::Frames;
 /// Angle between camera and sun below which a frame faces the sun, degrees.
 const FACING_DEG: f64 = 35.0;
 
-/// What the index says of a flight.
+/// Row of a flight in the index.
 #[derive(Clone, Debug)]
 pub struct Summary {
     /// Longest interval in which no pixel of the target is visible, seconds.

@@ -24,7 +24,7 @@ pub struct Request {
     headers: Vec<(String, String)>,
 }
 
-/// What came instead of a request.
+/// Reason why there is no request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoRequest {
     /// The connection ended, or waited too long.

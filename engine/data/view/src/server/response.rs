@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-/// What the page may do: run its own scripts, and load from its own server.
+/// Rights of the page: it runs its own scripts, and loads from its own server.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; connect-src 'self'; \
                       base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 

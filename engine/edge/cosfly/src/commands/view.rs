@@ -69,7 +69,7 @@ impl Command for Arguments {
 }
 
 impl Arguments {
-    /// What is shown.
+    /// Subject of the page.
     fn open(&self, console: &dyn Console) -> Result<Box<dyn ViewSubject>, Refusals> {
         let path = &self.subject;
         if results::is_of_results(path) {

@@ -104,7 +104,7 @@ impl Plugins {
         Err(refused(&setting.file))
     }
 
-    /// The same.
+    /// The setting itself: there are no plugins.
     pub fn for_item(self, _: String) -> Self {
         self
     }

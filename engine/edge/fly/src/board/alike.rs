@@ -4,7 +4,7 @@ use crate::flight::Row;
 use cosfly_fingerprint::Digest;
 use std::collections::BTreeMap;
 
-/// What an entry has in common with others.
+/// Likeness of an entry to others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Likeness {
     /// The first entry that it flies alike with, directly or by way of others; itself, where there is none.
@@ -13,7 +13,7 @@ pub struct Likeness {
     pub closest: Option<(usize, usize)>,
 }
 
-/// What each entry has in common with others: more than half of its episodes have the same rows, but for measured latencies.
+/// Likeness of each entry to others: more than half of its episodes have the same rows, but for measured latencies.
 pub fn alike(entries: &[&[Row]]) -> Vec<Likeness> {
     let mut owners: BTreeMap<Digest, Vec<usize>> = BTreeMap::new();
     for (entry, rows) in entries.iter().enumerate() {

@@ -16,7 +16,7 @@ const NOTES: &str = ".toml";
 /// Ending of the files of policies.
 const POLICY: &str = ".onnx";
 
-/// What an entry proves.
+/// Proof of an entry.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Proof {
     /// The policy was run again here on what it sees, and gave the same actions.
@@ -40,7 +40,7 @@ impl Proof {
         }
     }
 
-    /// What came out differently, in words, an entry for each episode; or why the policy could not be run.
+    /// Differences in words, an entry for each episode; or why the policy could not be run.
     pub fn differs(&self) -> &[String] {
         match self {
             Self::Rerun => &[],
@@ -60,11 +60,11 @@ pub struct Entry {
     pub suite: SuiteCard,
     /// Its rows, in the order of the suite.
     pub rows: Vec<Row>,
-    /// What its maker says of it.
+    /// Notes of its maker.
     pub notes: Notes,
-    /// What the policy sees.
+    /// Inputs that the policy sees.
     pub sees: PolicySees,
-    /// What it proves.
+    /// Proof of the entry.
     pub proof: Proof,
     /// Its worst episode as a drawing (SVG).
     pub clip: String,
@@ -76,7 +76,7 @@ pub struct Found {
     pub bytes: Vec<u8>,
     /// The policy beside it, a network in ONNX.
     pub policy: Option<Vec<u8>>,
-    /// What its maker says of it.
+    /// Notes of its maker.
     pub notes: Notes,
 }
 
@@ -99,7 +99,7 @@ impl Found {
     /// Reads an entry of a folder.
     ///
     /// # Errors
-    /// What is wrong with its files, in words.
+    /// Fault of its files, in words.
     pub fn read(folder: &Path, name: &str) -> std::result::Result<Self, String> {
         let bytes = bytes_of(&folder.join(format!("{name}{BUNDLE}")), MOST_BYTES)?;
         let bytes = bytes.ok_or_else(|| format!("there is no `{name}{BUNDLE}` beside its notes or its policy"))?;

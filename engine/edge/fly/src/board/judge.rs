@@ -46,7 +46,7 @@ impl<'a> Offer<'a> {
     }
 }
 
-/// What entries are judged with.
+/// Tools that entries are judged with.
 pub struct Bench<'a> {
     /// Suites that entries may be of.
     pub offers: &'a [Offer<'a>],
@@ -131,7 +131,7 @@ struct Kept {
 /// A policy that was run again.
 #[derive(Serialize, Deserialize)]
 struct Rerun {
-    /// What it sees; nothing where it could not be run.
+    /// Its inputs; nothing where it could not be run.
     sees: Vec<String>,
     /// Where it gives other actions, or why it could not be run, in words.
     differ: Vec<String>,

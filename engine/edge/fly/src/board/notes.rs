@@ -13,7 +13,7 @@ const MOST_LETTERS: usize = 300;
 /// Longest time of an episode, seconds.
 const MOST_SECONDS: f64 = 1e6;
 
-/// What the maker of an entry says of it.
+/// Notes of an entry's maker.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Notes {
     /// A sentence.
@@ -26,7 +26,7 @@ pub struct Notes {
     pub link: Option<String>,
     /// Seconds of an episode by the clock, as measured by the maker.
     pub seconds: Option<f64>,
-    /// What the policy sees: `world`, or `state` and channels. Empty: what it was sent.
+    /// Inputs of the policy: `world`, or `state` and channels. Empty: what it was sent.
     pub sees: Vec<String>,
 }
 
@@ -34,7 +34,7 @@ impl Notes {
     /// Reads the text of the file `name`.
     ///
     /// # Errors
-    /// What is wrong with it, in words.
+    /// The fault, in words.
     pub fn of_text(name: &str, text: &str) -> Result<Self, String> {
         let table = cosfly_recipe::table(Path::new(name), text);
         let table = table.map_err(|problems| {

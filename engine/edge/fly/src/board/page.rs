@@ -75,7 +75,7 @@ fn of_contest(contest: &Contest) -> String {
     html
 }
 
-/// What the column `behind` says.
+/// Text of the column `behind`.
 fn behind(ranked: &[Standing]) -> String {
     match ranked {
         [first, _, ..] => format!(

@@ -9,7 +9,7 @@ const EXPERT_M: f64 = 1.0;
 /// A flight within this distance, metres, holds the expert's own actions: one is enough, because files can be mixed of several policies.
 const COPIED_M: f64 = 0.1;
 
-/// What a policy sees, as far as an entry tells.
+/// Inputs of a policy, as far as an entry tells.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PolicySees {
     /// Whether it knows the world: the whole walk, the expert's flight.
@@ -19,10 +19,10 @@ pub struct PolicySees {
 }
 
 impl PolicySees {
-    /// What the card, the notes and the flights of an entry tell; `shown` is what its policy saw where it was run again.
+    /// Inputs by the card, the notes and the flights of an entry; `shown` is what its policy saw where it was run again.
     ///
     /// # Errors
-    /// What the notes say against the card, in words.
+    /// Contradiction between notes and card, in words.
     pub fn of(card: &Card, notes: &Notes, rows: &[Row], shown: Option<&[String]>) -> Result<Self, String> {
         let sent = card.policy.sent();
         let not_sent = notes.sees.iter().find(|it| *it != "world" && !sent.contains(&it.as_str()));

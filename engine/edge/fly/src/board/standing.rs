@@ -48,7 +48,7 @@ pub struct Contest {
 /// Entries whose policies were run again and see the same.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Class {
-    /// What they see, in words.
+    /// Their inputs, in words.
     pub sees: String,
     /// The entries, the highest tracking rate first.
     pub ranked: Vec<Standing>,

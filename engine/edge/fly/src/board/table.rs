@@ -41,7 +41,7 @@ fn of_standing(it: &Standing) -> Value {
     })
 }
 
-/// What comes out differently, in words: a number of episodes, or the policy that could not be run.
+/// Difference in words: a number of episodes, or the policy that could not be run.
 pub fn differing(it: &Standing) -> String {
     let (count, all) = (it.entry.proof.differs().len(), it.entry.rows.len());
     match it.entry.proof {

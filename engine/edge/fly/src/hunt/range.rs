@@ -72,7 +72,7 @@ impl HuntRange {
         }
     }
 
-    /// What varies where nothing is said: latency, losses of sight, and for quadrotors the wind.
+    /// Ranges that vary where nothing is said: latency, losses of sight, and for quadrotors the wind.
     pub fn of_flights(recipe: &Recipe) -> Vec<Self> {
         let whole = |key: &str, high: i64| Self { path: format!("{AIR}{key}"), values: Values::Whole(0, high) };
         let drone = recipe.tool.get("fly").and_then(|table| table["drone"].as_str());

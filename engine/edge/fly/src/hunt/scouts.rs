@@ -49,7 +49,7 @@ pub fn failed(row: &Row) -> bool {
     row.policy_failure.is_some() || row.score.end != Some(End::Finished)
 }
 
-/// What is known of each candidate before the policy flies it, numbers of 0..=1: for each scout its share of steps without the target and
+/// Features of each candidate before the policy flies it, numbers of 0..=1: for each scout its share of steps without the target and
 /// whether it failed, then the share of hidden views around the target, then the drawn values. `None` where the expert has no success.
 /// `progress` gets the numbers of finished and of all.
 ///

@@ -47,7 +47,7 @@ impl Runnable {
         }
     }
 
-    /// What it sees.
+    /// Its inputs.
     pub fn sees(&self) -> Vec<&'static str> {
         match self {
             Self::Onnx(policy) => policy.sees(),

@@ -16,7 +16,7 @@ mod window;
 use crate::call::Call;
 use crate::tensor::Tensor;
 
-/// What an operator computes from its inputs.
+/// Function of an operator: its outputs from its inputs.
 pub type Run = fn(&Call<'_>) -> Result<Vec<Tensor>, String>;
 
 /// An operator.
@@ -25,7 +25,7 @@ pub struct Operator {
     pub name: &'static str,
     /// Settings that are read.
     pub attributes: &'static [&'static str],
-    /// What it computes.
+    /// Its function.
     pub run: Run,
 }
 

@@ -25,7 +25,7 @@ use std::path::Path;
 /// Sequences that are scored side by side.
 const BATCH: usize = 16;
 
-/// What is counted of a sequence.
+/// Counts of a sequence.
 enum Found {
     Tracks { by_class: Box<[TrackTally; COUNTED.len()]>, has_classes: bool },
     Target(TargetScores),

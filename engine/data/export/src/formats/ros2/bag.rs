@@ -21,7 +21,7 @@ pub enum Topic {
     TfStatic,
     /// Boxes of the town.
     Town,
-    /// What the drone is told.
+    /// Commands to the drone.
     Instruction,
     /// Time.
     Clock,

@@ -39,7 +39,7 @@ pub fn shade(areas: &[AreaConfig]) -> Box<PlanShade> {
     })
 }
 
-/// What the areas leave to people, in words.
+/// Ground that the areas leave to people, in words.
 pub fn text(town: &Town, areas: &[AreaConfig]) -> Result<String> {
     let ground = |areas: &[AreaConfig]| {
         let config = PedestrianConfig { areas: areas.to_vec(), ..PedestrianConfig::default() };

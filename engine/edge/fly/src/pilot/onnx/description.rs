@@ -62,7 +62,7 @@ fn simple() -> String {
 /// An input of a network that is fed with observations.
 #[derive(Clone, Copy, Debug)]
 pub struct Fed {
-    /// What it is fed with.
+    /// Observations or memory that it is fed with.
     pub observation: Observation,
     /// Whether colours are 0 to 1 instead of 0 to 255.
     pub is_share: bool,
@@ -81,7 +81,7 @@ pub enum Source {
     Memory(usize),
 }
 
-/// What a file says of its inputs and outputs.
+/// Description of a file's inputs and outputs.
 #[derive(Clone, Debug)]
 pub struct Description {
     /// Sources of the inputs, in their order.
@@ -100,7 +100,7 @@ impl Description {
     /// The description in a file's metadata.
     ///
     /// # Errors
-    /// What is missing or wrong, and what is allowed, in words.
+    /// The fault, and what is allowed, in words.
     pub fn of(model: &OnnxModel) -> Result<Self, String> {
         let text = model.metadata(KEY).ok_or_else(|| {
             format!("its metadata has no entry `{KEY}`, which describes inputs and outputs; `cosfly.onnx.describe` writes it")
@@ -125,7 +125,7 @@ impl Description {
         Ok(Self { sources, output, actions, every: stated.every, pictures })
     }
 
-    /// What it is fed with, each once.
+    /// Observations that it is fed with, each once.
     pub fn observations(&self) -> Vec<Observation> {
         let mut all: Vec<Observation> = vec![];
         for source in &self.sources {

@@ -12,7 +12,7 @@ const UNITS: &[&str] = &["m, s, degrees"];
 /// Sizes of pictures, pixels.
 const SIZES_PX: std::ops::RangeInclusive<usize> = 16..=512;
 
-/// What an input of a network is fed with.
+/// Source of an input of a network.
 #[derive(Clone, Copy, Debug)]
 pub enum Observation {
     /// The state.
@@ -116,7 +116,7 @@ impl Observation {
     /// Whether an input of a kind can hold it in a unit.
     ///
     /// # Errors
-    /// What is allowed, in words.
+    /// Allowed names, in words.
     pub fn check(self, unit: &str, kind: Kind) -> Result<(), String> {
         let units = self.units();
         if !units.contains(&unit) {

@@ -17,7 +17,7 @@ const MOST_LETTERS: usize = 300;
 pub struct OnnxPilot {
     policy: OnnxPolicy,
     pictures: Option<(Pictures, PictureBatch)>,
-    /// Of each input: the observations that it was fed with, or its memory; empty at the beginning of an episode.
+    /// Observations that each input was fed with, or its memory; empty at the beginning of an episode.
     kept: Vec<Vec<f32>>,
     answer: Option<PolicyAnswer>,
 }

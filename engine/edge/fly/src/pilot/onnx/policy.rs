@@ -63,7 +63,7 @@ impl OnnxPolicy {
     /// The policy in the bytes of a file, which is tried once.
     ///
     /// # Errors
-    /// What is wrong and what is allowed, in words.
+    /// The fault, and what is allowed, in words.
     pub fn of_bytes(name: &str, bytes: Vec<u8>) -> std::result::Result<Self, String> {
         let model = OnnxModel::read(&bytes)?;
         let description = Description::of(&model)?;
@@ -101,7 +101,7 @@ impl OnnxPolicy {
         &self.network.0
     }
 
-    /// What it says of its inputs and outputs.
+    /// Description of its inputs and outputs.
     pub fn description(&self) -> &Description {
         &self.network.1
     }
