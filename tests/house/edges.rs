@@ -94,6 +94,16 @@ fn is_lawful(name: &str, room: &Room, other: &str, of_other: &Room, is_dev: bool
 }
 
 #[test]
+fn the_architecture_names_every_room() {
+    let text = std::fs::read_to_string(repository_root().join("ARCHITECTURE.md")).expect("readable");
+    let words: BTreeSet<&str> = text.split(|sign: char| !sign.is_ascii_alphanumeric() && sign != '-').collect();
+    let folders = rooms().into_values().filter_map(|room| room.folder.parent().map(Path::to_owned));
+    let names = folders.filter_map(|folder| Some(folder.file_name()?.to_str()?.to_owned()));
+    let unnamed: Vec<_> = names.filter(|name| !words.contains(name.as_str())).collect();
+    assert!(unnamed.is_empty(), "say in ARCHITECTURE.md what is in these rooms: {unnamed:?}");
+}
+
+#[test]
 fn shelves_see_what_the_law_allows() {
     let rooms = rooms();
     let mut beyond = BTreeSet::new();

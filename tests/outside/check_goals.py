@@ -17,7 +17,7 @@ REACH_M = {"building": 10.0}
 KIND_OF = {"tree": "tree_trunk", "parked_car": "car"}
 ON_FOOT = ("pedestrian", "child", "elder", "push_chair", "dog_walker", "runner")
 HIDERS = {"tree": {"tree_trunk", "tree_crown"}, "parked_car": {"car"}}
-WORN = {"people": ("top_colour", "trousers_colour", "has_backpack"), "flights": ("target_top_colour", "target_trousers_colour", "target_has_backpack")}
+WORN = ("target_top_colour", "target_trousers_colour", "target_has_backpack")
 
 
 # Kinds of bodies (none: the claim names one), whether they go from ahead to behind the target (1) or the other way, by what angle, how near.
@@ -105,7 +105,7 @@ class Flight:
         name, *rest = claim
         frames = slice(start, end)
         if name == "wears":
-            top, trousers, backpack = (self.row[column] for column in WORN["flights"])
+            top, trousers, backpack = (self.row[column] for column in WORN)
             return rest[:2] == [top, trousers] and (("backpack" in rest) <= backpack)
         if name == "distance":
             return abs(self.distance[frames].mean() - int(rest[0])) <= 0.51
@@ -192,7 +192,7 @@ def judge_dialogue(goal, flight, where, wrong):
         top = pilot[0][1]
         if top == flight.row["target_top_colour"] or sum(it["top_colour"] == top for it in others) != 1:
             wrong.append(f"{where}: the pilot's colour is nobody else's, or several people's")
-        own = [flight.row[column] for column in WORN["flights"]][:2]
+        own = [flight.row[column] for column in WORN][:2]
         if any([it["top_colour"], it["trousers_colour"]] == own for it in others):
             wrong.append(f"{where}: the correction fits others as well")
         if len(others) != 1 and ("other" in goal["lines"][2] or "另一个" in goal["lines"][2]):
