@@ -25,7 +25,7 @@ const SHADE: f64 = 0.4;
 pub struct BakedTown {
     pub(crate) patches: Vec<Patch>,
     pub(crate) boxes: BoxBvh,
-    /// What the town's reader took off its map's points, world axes, metres.
+    /// Offset that the town's reader took off its map's points, world axes, metres.
     pub(crate) origin_m: DVec3,
 }
 

@@ -15,7 +15,7 @@ const THIN_M: f32 = 0.01;
 const OPACITY: f32 = 0.97;
 /// Side of the blocks of pixels of open land, pixels.
 const WIDE: usize = 4;
-/// What lies this deep in a box is never seen, metres.
+/// Depth in a box from which on nothing is seen, metres.
 const INSIDE_M: f64 = 0.02;
 /// Layers of ground this near to each other lie in one place, metres.
 const LAYERS_M: f64 = 0.03;
@@ -85,7 +85,7 @@ fn blocks(patch: &Patch, seen: &[bool]) -> Vec<Block> {
     blocks
 }
 
-/// What hides parts of surfaces from everywhere.
+/// Boxes that hide parts of surfaces from everywhere.
 struct Hidden<'a> {
     boxes: &'a BoxBvh,
     ground: TriangleBvh,

@@ -93,12 +93,12 @@ pub struct Facts {
     /// Whether the target is of the kind `runner`.
     #[serde(default)]
     pub is_runner: bool,
-    /// What the frames leave out, where they are a part of the flight's.
+    /// Facts that the frames leave out, where they are a part of the flight's.
     #[serde(default)]
     pub left_out: Option<LeftOut>,
 }
 
-/// What facts of every n-th frame may miss of the whole flight's.
+/// Part of the whole flight's facts that those of every n-th frame may miss.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeftOut {
     /// Time at either end of the flight, and between frames, seconds.

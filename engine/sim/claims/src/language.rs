@@ -21,7 +21,7 @@ pub enum Script {
     Latin,
 }
 
-/// What all rooms need to know of a language.
+/// Properties of a language that all rooms need.
 struct LanguageRow {
     code: &'static str,
     name: &'static str,

@@ -12,7 +12,7 @@ use cosfly_surroundings::visibility::body_points;
 
 /// Length of a stretch of [`Others::stretches`], seconds.
 const STRETCH_S: f64 = 4.0;
-/// What distances that leave a body out are above those that count: more than errors of rounding and of clearances, metres.
+/// Slack of distances that leave a body out above those that count: more than errors of rounding and of clearances, metres.
 const SLACK_M: f64 = 0.05;
 
 /// Who moves around the target.

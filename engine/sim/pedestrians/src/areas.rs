@@ -194,7 +194,7 @@ impl Weights {
     }
 }
 
-/// What areas say of each place of a town, for drawings.
+/// Weights of areas at each place of a town, for drawings.
 pub struct AreaMap(Closed, Weights);
 
 impl AreaMap {

@@ -78,7 +78,7 @@ impl<G: Deref<Target = WalkableGrid>> RouteSearch<G> {
         self.find_within(start, goal, recent, f32::INFINITY)
     }
 
-    /// The same; `None`, too, when the cheapest route costs more than `most` metres of pavement.
+    /// Nodes as [`Self::find`] gives them; `None`, too, when the cheapest route costs more than `most` metres of pavement.
     pub fn find_within(&mut self, start: u32, goal: u32, recent: &[u32], most: f32) -> Option<Vec<u32>> {
         self.search += 1;
         for &node in recent {

@@ -68,7 +68,7 @@ impl Airframe {
         }
     }
 
-    /// What is fixed to the airframe at a place: the lever arm adds its turning.
+    /// Motion of a thing that is fixed to the airframe at a place: the lever arm adds its turning.
     #[must_use]
     pub fn at(&self, place: &SensorPlace) -> Self {
         let (arm, rates) = (place.position_in_body, self.rates_in_body);

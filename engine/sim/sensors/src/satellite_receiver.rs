@@ -101,7 +101,7 @@ pub(crate) fn in_view(at: &SensorMoment<'_>) -> Vec<(usize, DVec3)> {
 struct Solution([[f64; 4]; 4]);
 
 impl Solution {
-    /// Of the directions to satellites; `None` where they do not fix a position.
+    /// Solution for the directions to satellites; `None` where they do not fix a position.
     fn of(rays: &[DVec3]) -> Option<Self> {
         if rays.len() < 4 {
             return None;

@@ -16,7 +16,7 @@ pub struct Sensor {
     pub doc: &'static str,
     /// Raised whenever the readings change.
     pub version: u32,
-    /// What carries it, which says how it moves.
+    /// Its carrier, which says how it moves.
     pub carrier: Carrier,
     /// Numbers of a reading, in the order of the table's columns.
     pub quantities: &'static [Quantity],
@@ -33,7 +33,7 @@ impl Sensor {
     }
 }
 
-/// What carries a sensor.
+/// Carrier of a sensor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Carrier {
     /// The camera: the sensor is turned as the pictures are, and moves evenly from frame to frame.
@@ -51,7 +51,7 @@ pub struct Quantity {
     pub doc: &'static str,
 }
 
-/// What surrounds a sensor at one moment. World frame: CARLA's, metres, radians.
+/// Surroundings of a sensor at one moment. World frame: CARLA's, metres, radians.
 #[derive(Clone, Copy)]
 pub struct SensorMoment<'a> {
     /// Time since the first frame, seconds.

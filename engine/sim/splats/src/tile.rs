@@ -106,9 +106,9 @@ const BELOW: [f32; LANES] = [0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2
 
 /// A footprint's numbers that are the same in all blocks, by lane.
 struct Stamp {
-    /// Of the profile.
+    /// Bend of the profile.
     bend: [f32; LANES],
-    /// Of the depth, metres.
+    /// Rise of the depth, metres.
     rise_m: [f32; LANES],
 }
 

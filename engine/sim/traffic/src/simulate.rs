@@ -13,7 +13,7 @@ use cosfly_world::{OutfitsBySeed, dress, give_looks, simulate};
 pub struct SimulatedTraffic {
     /// Everybody, those who were avoided left out.
     pub traffic: Traffic,
-    /// What the populations say of themselves, in words.
+    /// Notes of the populations, in words.
     pub about: String,
     /// Omissions, in words; they stand among the notes of the traffic, too.
     pub warnings: Vec<String>,

@@ -29,7 +29,7 @@ impl Variation {
     /// Reads `KEY=VALUE,...`.
     ///
     /// # Errors
-    /// What is allowed, in words.
+    /// Allowed names and ranges, in words.
     pub fn read(text: &str) -> Result<Self, String> {
         let mut read = Self::NONE;
         for pair in text.split(',') {

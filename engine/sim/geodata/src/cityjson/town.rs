@@ -27,7 +27,7 @@ const PIECE_M: f64 = 8.0;
 const STOREY_M: f64 = 3.0;
 /// A shape lower than this has no height of its own, metres.
 const FLAT_M: f64 = 0.3;
-/// What is wrong with heights and storeys that are not believed.
+/// Faults of heights and storeys that are not believed, in words.
 const NO_HEIGHT: &str = "no height of 0.5 to 1500 m and counts as missing";
 const NO_STOREYS: &str = "no number of storeys up to 500 and counts as missing";
 /// Most objects from a part up to its building.

@@ -41,7 +41,7 @@ pub struct Quantity {
     pub noun: [&'static str; 2],
     /// Values that say something else in a word of the map's users.
     pub is_word: fn(&str) -> bool,
-    /// What is done in place of a value that is not believed.
+    /// Replacement of a value that is not believed.
     pub instead: &'static str,
 }
 

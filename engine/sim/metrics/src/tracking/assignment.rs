@@ -31,7 +31,7 @@ struct Matching<'a> {
 struct Path {
     end: usize,
     length: f64,
-    /// Of each column: the row before it, and the length of the path to it.
+    /// Row before each column, and the length of the path to it.
     before: Vec<usize>,
     lengths: Vec<f64>,
     rows: Vec<usize>,

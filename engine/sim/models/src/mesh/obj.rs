@@ -89,7 +89,7 @@ struct Reader<'a> {
     is_mesh: bool,
 }
 
-/// What is wrong with a line of a damaged file.
+/// Fault of a line of a damaged file, in words.
 fn damaged(rule: &str) -> MapError {
     MapError::new(rule).hint("the file seems to be damaged: export it again")
 }

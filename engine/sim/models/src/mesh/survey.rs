@@ -23,7 +23,7 @@ pub struct MeshSurvey {
     pub textured_share: f64,
     /// Length of all edges that one triangle alone has, rims of holes and of the scan, metres; none for very large meshes.
     pub open_edges_m: Option<f64>,
-    /// What is drawn otherwise than the file means it.
+    /// Differences from what the file means, in words.
     pub remarks: Vec<String>,
 }
 

@@ -6,7 +6,7 @@ use cosfly_frames::real;
 use cosfly_scans::gltf::materials::TextureWrap;
 use std::sync::OnceLock;
 
-/// What a place in a texture changes by from a pixel to the one on its right, and to the one below.
+/// Change of a place in a texture from a pixel to the one on its right, and to the one below.
 pub type PixelSides = [[f32; 2]; 2];
 
 /// Width of a probe beside that of what it stands for: between texels, it takes in more than its own width.
@@ -19,7 +19,7 @@ const MOST_PROBES: f32 = 16.0;
 pub struct MeshTexture {
     /// The picture, then copies of half the size.
     levels: Vec<Level>,
-    /// What is beyond its edges, across and down.
+    /// Continuation beyond its edges, across and down.
     wraps: [TextureWrap; 2],
     has_holes: bool,
     /// Whether what is less opaque than some is never drawn: colours then count as much as they are opaque, since what hidden

@@ -15,7 +15,7 @@ pub struct TexturedMesh {
     pub textures: Vec<MeshTexture>,
     /// Triangles that were left out: without extent, not finite, or farther than 20 km from the world's origin.
     pub left_out: usize,
-    /// What is drawn otherwise than the file means it.
+    /// Differences from what the file means, in words.
     pub remarks: Vec<String>,
     /// The format's name.
     pub format: &'static str,

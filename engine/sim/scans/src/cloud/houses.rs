@@ -3,8 +3,8 @@
 use cosfly_domain::{Obstacle, ObstacleKind, OrientedBox};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 
-/// What is on a wall, its boxes all this near a house in their middle and this narrow to a side, is a balcony, a pipe or a
-/// creeper, metres.
+/// Largest distance of the middle of a box from a house, and largest half of its narrow side, of things on a wall: balconies, pipes,
+/// creepers; metres.
 const ON_WALL_M: f64 = 1.0;
 const HALF_WIDTH_ON_WALL_M: f64 = 1.25;
 

@@ -14,7 +14,7 @@ use cosfly_town::MapError;
 use cosfly_town::mesh::MeshBuilder;
 use cosfly_town::terrain::{USUAL_MARGIN_M, add_terrain};
 
-/// What a cloud that is higher than wide says: phones and trainers of splats write files whose y axis points up.
+/// Note of a cloud that is higher than wide: phones and trainers of splats write files whose y axis points up.
 fn upended(cloud: &Cloud) -> Option<String> {
     let heights_m = || (0..cloud.len()).map(|point| cloud.point(point).z);
     let height_m = heights_m().fold(f64::NEG_INFINITY, f64::max) - heights_m().fold(f64::INFINITY, f64::min);

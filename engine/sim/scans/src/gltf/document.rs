@@ -61,7 +61,7 @@ pub struct Document {
     images: Vec<Image>,
     extensions_required: Vec<String>,
     extensions: DocumentExtensions,
-    /// What a tileset has, and no glTF file.
+    /// Error of a tileset; no glTF file has one.
     geometric_error: Option<f64>,
     /// Bytes of the buffers.
     #[serde(skip)]
@@ -227,7 +227,7 @@ impl Document {
         }
     }
 
-    /// What is read otherwise than the file means it.
+    /// Differences from what the file means, in words.
     pub fn remarks(&self) -> Vec<String> {
         let is_morphed = |node: &&Node| {
             let of_mesh = node.mesh.and_then(|mesh| self.meshes.get(mesh)).map_or(&[][..], |mesh| &mesh.weights);

@@ -110,7 +110,7 @@ pub(super) struct Sampler {
     wrap_t: Option<u32>,
 }
 
-/// What a texture shows beyond the edge of its picture.
+/// Continuation of a texture beyond the edge of its picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum TextureWrap {
     /// The picture again.
@@ -169,7 +169,7 @@ impl TextureUse {
 }
 
 impl Sampler {
-    /// What is beyond the edges of a picture, across and down.
+    /// Continuation beyond the edges of a picture, across and down.
     pub(super) fn wraps(&self) -> [TextureWrap; 2] {
         [self.wrap_s, self.wrap_t].map(|code| match code {
             Some(33071) => TextureWrap::Clamp,

@@ -184,7 +184,7 @@ fn signed(code: u32) -> u32 {
     (code >> 1) ^ (code & 1).wrapping_neg()
 }
 
-/// What is known while triangles are read.
+/// State while triangles are read.
 struct Corners<'a> {
     data: &'a [u8],
     next: u32,

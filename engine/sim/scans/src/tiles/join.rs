@@ -100,14 +100,14 @@ struct Walk<'a> {
     subtrees: usize,
 }
 
-/// What the tiles of a file share.
+/// Properties that the tiles of a file share.
 struct OfFile {
     path: String,
     is_z_up: bool,
     has_own_errors: bool,
 }
 
-/// What is still to be visited: a file of tiles, or a tile.
+/// Place that is still to be visited: a file of tiles, or a tile.
 enum Open {
     Tileset(String),
     Tile(Box<Tile>, Rc<OfFile>),

@@ -22,7 +22,7 @@ pub(super) struct Tileset {
     pub root: Tile,
     #[serde(default)]
     extensions_required: Vec<String>,
-    /// What properties of tiles mean.
+    /// Meanings of the properties of tiles.
     #[serde(default)]
     schema: Value,
 }

@@ -21,7 +21,7 @@ pub struct LidarScene {
     owners: Vec<(u8, u32)>,
 }
 
-/// What a ray met first.
+/// First surface that a ray met.
 #[derive(Clone, Copy)]
 pub(super) struct Echo {
     pub(super) distance_m: f64,

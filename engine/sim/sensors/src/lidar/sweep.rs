@@ -24,7 +24,7 @@ pub const MOST_BEAMS: usize = 50_000_000;
 /// A flight that carries a lidar on its airframe.
 #[derive(Clone, Copy)]
 pub struct ScannedFlight<'a> {
-    /// What rays meet beside bodies.
+    /// Surfaces that rays meet beside bodies.
     pub scene: &'a LidarScene,
     /// Adds the people and vehicles that are there at a time, seconds since the first frame.
     pub bodies: &'a dyn Fn(f64, &mut Vec<Bystander>),

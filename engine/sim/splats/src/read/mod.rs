@@ -11,7 +11,7 @@ use crate::error::SplatError;
 /// Most splats of a file.
 pub const MOST_SPLATS: usize = 10_000_000;
 
-/// What a file holds.
+/// Content of a file.
 #[derive(Clone, Debug)]
 pub struct SplatFile {
     /// Its splats.
