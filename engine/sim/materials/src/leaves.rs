@@ -371,7 +371,7 @@ simd_kernel! {
 #[inline(always)]
 fn raggedness(place: Vec3, normal: Vec3, shift: f32, size: f32, noise: &NoiseTexture) -> f32 {
     let (u, v) = facing(place * PER_M, normal);
-    0.6 * (noise.rough(u + shift, v - shift, size * PER_M) - 0.5)
+    0.5 * (noise.rough(u + shift, v - shift, size * PER_M) - 0.5)
 }
 
 /// The look of a place on a clump. Patterns lie on each clump as seen from outside. Also the way that its leaves are turned.
@@ -403,9 +403,9 @@ fn look(seen: &OnClump, crown: &OnMap, size: f32, ragged: f32, noise: &NoiseText
     // Every twig of leaves faces its own way.
     let turn = Vec3::new(2.0 * ragged - big, 2.0 * ragged + leaf, big + ragged);
     let bent =
-        (out.lerp(*round, 0.5) + turn * 1.9 + Vec3::new(0.0, 0.0, 0.25)).lerp(Vec3::new(0.0, 0.0, 1.0), 0.6 * bare);
+        (out.lerp(*round, 0.5) + turn * 1.4 + Vec3::new(0.0, 0.0, 0.25)).lerp(Vec3::new(0.0, 0.0, 1.0), 0.6 * bare);
     let outer = lerp(outwards(met) * lerp(0.5, 1.0, clear), 0.75, 0.7 * bare);
-    let deep = smoothstep(-0.75, 1.15, 1.6 * outer - 0.8 + 3.2 * big + 1.1 * leaf * crown.through);
+    let deep = smoothstep(-0.75, 1.15, 1.6 * outer - 0.8 + 2.7 * big + 1.1 * leaf * crown.through);
     // Light shines through leaves at the rim of a clump: they are yellower there.
     let through = Vec3::new(1.9, 1.45, 1.1) * crown.through + Vec3::splat(0.6 * bare);
     let tint = crown.tint.lerp(crown.tint * through, 0.5 * (small + 0.5) * deep);
