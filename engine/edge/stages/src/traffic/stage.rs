@@ -53,7 +53,7 @@ impl StageKind for TrafficKind {
         config.check().map_err(|rule| parameters::refused_at(&rule.path.join("."), rule.message))?;
         let sources = take_sources(&mut config);
         let properties = |parameters, inputs, bytes_per_item| StageProperties {
-            version: 9,
+            version: 10,
             parameters,
             inputs,
             bytes_per_item,
