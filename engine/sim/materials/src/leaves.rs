@@ -272,13 +272,12 @@ simd_kernel! {
                     *ragged = raggedness(place, normal, shift, shared.footprint_m[k], noise);
                 }
                 let rays = crowns.clumps(group, block, eye, &mut nearest);
-                let ragged = nearest.ragged;
-                for k in 0..WIDE {
+                for (k, ragged) in nearest.ragged.into_iter().enumerate() {
                     let (place, crown) = (get(&block.world, k), crowns.on_map(group, k));
                     let (nearest, ray, round) = (nearest.at(k), rays.at(k), get(&block.normal, k));
                     let place_on = place - three_of(&crowns.middle, group, k);
                     let seen = OnClump { nearest, ray, round, place: place_on };
-                    let (look, aside) = look(&seen, &crown, shared.footprint_m[k], ragged[k], noise);
+                    let (look, aside) = look(&seen, &crown, shared.footprint_m[k], ragged, noise);
                     block.put_bent(k, &look);
                     set(&mut block.world, k, place + off_crown + aside * ASIDE_M);
                 }

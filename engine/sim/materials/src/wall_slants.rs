@@ -78,10 +78,10 @@ fn ends_of(boxes: &[SceneBox], members: &[usize]) -> Vec<End> {
             ends.push(End { index, face, over: [None; 2] });
         }
     }
-    for at in 0..ends.len() {
-        let End { index, face, .. } = ends[at];
+    for end in &mut ends {
+        let End { index, face, .. } = *end;
         let others = near.get(&index).map_or(&[][..], Vec::as_slice);
-        ends[at].over = [-1.0, 1.0].map(|side| {
+        end.over = [-1.0, 1.0].map(|side| {
             let beside = others.iter().filter_map(|other| over(&boxes[index], face, side, &boxes[*other], *other));
             let (step_m, other, there) = beside.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
             Some((step_m, number.get(&(other, there)).copied().unwrap_or(usize::MAX)))
