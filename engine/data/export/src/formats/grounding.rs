@@ -47,19 +47,19 @@ impl Format for Grounding {
 
 /// Kinds of what can hide a target.
 struct Kinds {
-    /// Of objects, by town and instance id.
-    objects: BTreeMap<(String, u32), String>,
+    /// Of objects, by town and by instance id.
+    objects: BTreeMap<String, BTreeMap<u32, String>>,
     bodies: SightingReader,
 }
 
 impl Kinds {
     fn of(dataset: &PublishedDataset) -> Result<Self> {
-        let mut objects = BTreeMap::new();
+        let mut objects: BTreeMap<String, BTreeMap<u32, String>> = BTreeMap::new();
         for (_, path) in dataset.files("objects")? {
             read(&path, &mut |rows| {
                 for row in 0..rows.len() {
-                    let key = (rows.get(Objects::town, row)?, rows.get(Objects::instance, row)?);
-                    objects.insert(key, rows.get(Objects::kind, row)?);
+                    let of_town = objects.entry(rows.get(Objects::town, row)?).or_default();
+                    of_town.insert(rows.get(Objects::instance, row)?, rows.get(Objects::kind, row)?);
                 }
                 Ok(())
             })?;
@@ -67,13 +67,10 @@ impl Kinds {
         Ok(Self { objects, bodies: SightingReader::of(dataset)? })
     }
 
-    /// Kinds of all that can hide the target of a flight, by instance id.
-    fn in_flight(&mut self, dataset: &PublishedDataset, flight: &PublishedFlight) -> Result<BTreeMap<u32, String>> {
-        let of_town = (flight.town.clone(), 0)..=(flight.town.clone(), u32::MAX);
-        let objects = self.objects.range(of_town).map(|((_, instance), kind)| (*instance, kind.clone()));
+    /// Kinds of the bodies that a flight shows, by instance id.
+    fn bodies(&mut self, dataset: &PublishedDataset, flight: &PublishedFlight) -> Result<BTreeMap<u32, String>> {
         let place = dataset.place(&flight.trajectory_id).unwrap_or_default();
-        let bodies = self.bodies.at(dataset, place)?.iter().map(|body| (body.instance, body.kind.clone()));
-        Ok(objects.chain(bodies).collect())
+        Ok(self.bodies.at(dataset, place)?.iter().map(|body| (body.instance, body.kind.clone())).collect())
     }
 }
 
@@ -93,8 +90,10 @@ fn write_split(
         let text = episode.instruction(language);
         let expert = episode.expert_poses()?;
         let losses = losses(episode);
-        let kinds = kinds.in_flight(source.dataset, flight)?;
-        let named = |language, instance| named(language, kinds.get(&instance).map(String::as_str), instance);
+        let bodies = kinds.bodies(source.dataset, flight)?;
+        let objects = kinds.objects.get(&flight.town);
+        let kind = |instance| objects.and_then(|it| it.get(&instance)).or_else(|| bodies.get(&instance));
+        let named = |language, instance| named(language, kind(instance).map(String::as_str), instance);
         episode.each_picture(
             &episode.every_nth_frame(options.pictures.every),
             |frame, logged| {
