@@ -1,6 +1,6 @@
 //! Promises of the README, held against the recipes and folders that ship.
 
-use crate::support::repository_root;
+use crate::support::{cosfly, repository_root};
 
 fn text(path: &str) -> String {
     std::fs::read_to_string(repository_root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
@@ -61,4 +61,27 @@ fn getting_started_names_every_table_and_items_every_kind_of_stage() {
         let kind = kind.split([':', '`']).next().unwrap_or_default();
         assert!(items.contains(&format!("`{kind}`")), "items.md does not name the kind `{kind}`");
     }
+}
+
+#[test]
+fn the_levels_of_the_occlusion_curriculum_run_as_its_recipe_says() {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let path = |name: &str| scratch.path().join(name).display().to_string();
+    let recipe = text("recipes/occlusion.toml");
+    let commands: Vec<&str> = recipe.lines().filter_map(|line| line.strip_prefix("#   cosfly ")).collect();
+    let levels = commands.iter().filter(|command| command.starts_with("run ")).enumerate().map(|(level, command)| {
+        let (out, store) = (path(&format!("level_{level}")), path("store"));
+        let mut words: Vec<&str> = command.split_whitespace().collect();
+        match words.iter().position(|word| *word == "--out") {
+            Some(at) => words[at + 1] = &out,
+            None => words.extend(["--out", &out]),
+        }
+        // Small pictures lose the same targets behind the same walls.
+        for small in ["stages.frames.width=96", "stages.frames.height=54"] {
+            words.extend(["--set", small]);
+        }
+        words.extend(["--store", &store, "--quiet"]);
+        cosfly(&words).within(&repository_root()).run_ok()
+    });
+    assert_eq!(levels.count(), 3);
 }
