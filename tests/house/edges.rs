@@ -38,6 +38,7 @@ const SIM_FOR_DATA: [(&[&str], &[&str]); 2] = [
 const BEYOND: &[(&str, &[&str], &str)] = &[
     ("cosfly-doctor", &["cosfly-captions"], "judges texts of others against the world"),
     ("cosfly-env", &["cosfly-scenes"], "tests: seeded streets"),
+    ("cosfly-export", &["cosfly-captions"], "names bodies in the languages of captions"),
     ("cosfly-planner", &["cosfly-scenes"], "tests: seeded streets"),
     ("cosfly-report", &["cosfly-captions"], "counts what texts say"),
     ("cosfly-sample", &["cosfly-captions", "cosfly-figures", "cosfly-planner"], "makes a dataset for tests"),

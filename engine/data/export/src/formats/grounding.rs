@@ -2,7 +2,7 @@
 
 mod reason;
 
-use self::reason::{OUT_OF_VIEW, Shown, TOO_SMALL, named};
+use self::reason::{OUT_OF_VIEW, Shown, TOO_SMALL};
 use crate::card::ExportCard;
 use crate::folder::OutFolder;
 use crate::format::Format;
@@ -92,8 +92,10 @@ fn write_split(
         let losses = losses(episode);
         let bodies = kinds.bodies(source.dataset, flight)?;
         let objects = kinds.objects.get(&flight.town);
-        let kind = |instance| objects.and_then(|it| it.get(&instance)).or_else(|| bodies.get(&instance));
-        let named = |language, instance| named(language, kind(instance).map(String::as_str), instance);
+        let named = |language, instance| match bodies.get(&instance) {
+            Some(kind) => reason::body(language, kind, instance),
+            None => reason::object(language, objects.and_then(|it| it.get(&instance)).map(String::as_str), instance),
+        };
         episode.each_picture(
             &episode.every_nth_frame(options.pictures.every),
             |frame, logged| {

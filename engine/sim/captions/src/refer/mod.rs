@@ -4,4 +4,4 @@ mod phrase;
 mod words;
 
 pub use phrase::{Candidate, Phrase, Property};
-pub use words::text;
+pub use words::{noun, text};

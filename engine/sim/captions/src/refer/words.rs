@@ -14,6 +14,11 @@ pub fn text(phrase: &Phrase, language: Language) -> String {
     phrase_in(phrase, messages_of(language, runs))
 }
 
+/// The noun of a kind of body, by its name in tables, such as `cyclist`; none of an unknown kind.
+pub fn noun(kind: &str, language: Language) -> Option<&'static str> {
+    Some(messages_of(language, false).text(&format!("phrase-noun[{kind}]"))).filter(|noun| !noun.is_empty())
+}
+
 fn phrase_in(phrase: &Phrase, messages: &Messages) -> String {
     let of = &phrase.of;
     let is_dressed = of.kind.row().is_dressed;

@@ -1,6 +1,8 @@
 //! The facts of a frame in words, English or Chinese.
 
 use crate::shared_options::InstructionLanguage;
+use cosfly_captions::Language;
+use cosfly_captions::refer::noun;
 use serde_json::Value;
 
 /// Cause of a loss whose target the camera does not look at.
@@ -8,7 +10,7 @@ pub(super) const OUT_OF_VIEW: &str = "out of view";
 /// Cause of a loss whose target is in the picture.
 pub(super) const TOO_SMALL: &str = "smaller than a pixel";
 
-/// Chinese words for kinds of objects and of bodies.
+/// Chinese words for kinds of objects.
 #[rustfmt::skip] // an entry per line
 const CHINESE: &[(&str, &str)] = &[
     ("building", "建筑"),
@@ -26,34 +28,26 @@ const CHINESE: &[(&str, &str)] = &[
     ("static", "固定物体"),
     ("bench", "长椅"),
     ("stall", "摊位"),
-    ("pedestrian", "行人"),
-    ("bicycle", "自行车"),
-    ("motorcycle", "摩托车"),
     ("car", "汽车"),
-    ("van", "厢式车"),
-    ("truck", "卡车"),
-    ("bus", "公交车"),
-    ("drone", "无人机"),
-    ("child", "儿童"),
-    ("elder", "老人"),
-    ("wheelchair", "轮椅"),
-    ("push_chair", "婴儿车"),
-    ("dog_walker", "遛狗的人"),
-    ("sitter", "坐着的人"),
-    ("runner", "跑步的人"),
-    ("e_scooter", "电动滑板车"),
 ];
 
-/// Words for what hides a target, with its instance id: trunk and crown are parts of one tree. `kind` is that of table `objects` or `bodies`.
-pub(super) fn named(language: InstructionLanguage, kind: Option<&str>, instance: u32) -> String {
+/// Words for an object that hides a target, with its instance id: trunk and crown are parts of one tree. Instance 0 is the ground.
+pub(super) fn object(language: InstructionLanguage, kind: Option<&str>, instance: u32) -> String {
     let chinese = |kind: &str| CHINESE.iter().find(|it| it.0 == kind).map_or("物体", |it| it.1);
     match (language, kind) {
         (InstructionLanguage::En, _) if instance == 0 => "the ground".into(),
         (InstructionLanguage::Zh, _) if instance == 0 => "地面".into(),
         (InstructionLanguage::En, Some("tree_trunk" | "tree_crown")) => format!("tree {instance}"),
-        (InstructionLanguage::En, Some(kind)) => format!("{} {instance}", kind.replace('_', " ")),
-        (InstructionLanguage::En, None) => format!("body {instance}"),
+        (InstructionLanguage::En, kind) => format!("{} {instance}", kind.unwrap_or("body").replace('_', " ")),
         (InstructionLanguage::Zh, kind) => format!("{} {instance} ", chinese(kind.unwrap_or_default())),
+    }
+}
+
+/// Words for a person, vehicle or drone that hides a target, with its instance id.
+pub(super) fn body(language: InstructionLanguage, kind: &str, instance: u32) -> String {
+    match language {
+        InstructionLanguage::En => format!("{} {instance}", noun(kind, Language::En).unwrap_or("body")),
+        InstructionLanguage::Zh => format!("{} {instance} ", noun(kind, Language::Zh).unwrap_or("物体")),
     }
 }
 
@@ -157,15 +151,19 @@ mod tests {
     use cosfly_schema::tables::kind_name;
 
     #[test]
-    fn every_kind_has_a_chinese_word() {
-        let bodies = BodyKind::ON_THE_GROUND.iter().chain([&BodyKind::Drone]).map(|kind| kind.name());
+    fn every_kind_has_a_word() {
         use ObstacleKind::*;
         let objects = [Building, Wall, Fence, TreeTrunk, TreeCrown, Bush, Pole, Lamp, TrafficLight, TrafficSign];
-        let more = [GuardRail, Bridge, Car, Static, Bench, Stall];
-        for kind in bodies.chain(objects.into_iter().chain(more).map(kind_name)) {
+        for kind in objects.into_iter().chain([GuardRail, Bridge, Car, Static, Bench, Stall]).map(kind_name) {
             assert!(CHINESE.iter().any(|it| it.0 == kind), "{kind}");
         }
-        assert_eq!(named(InstructionLanguage::Zh, Some("tree_crown"), 12), "树 12 ");
-        assert_eq!(named(InstructionLanguage::En, Some("guard_rail"), 12), "guard rail 12");
+        for kind in BodyKind::ON_THE_GROUND.iter().chain([&BodyKind::Drone]).map(|kind| kind.name()) {
+            assert!([Language::En, Language::Zh].iter().all(|it| noun(kind, *it).is_some()), "{kind}");
+        }
+        assert_eq!(object(InstructionLanguage::Zh, Some("tree_crown"), 12), "树 12 ");
+        assert_eq!(object(InstructionLanguage::En, Some("guard_rail"), 12), "guard rail 12");
+        let bus = [InstructionLanguage::En, InstructionLanguage::Zh].map(|it| body(it, "bus", 12));
+        assert_eq!(bus, ["bus 12", "公交车 12 "]);
+        assert_eq!(body(InstructionLanguage::En, "unknown", 12), "body 12");
     }
 }
