@@ -234,6 +234,18 @@ fn drawn_cameras_with_lens_blur_and_noise_pass_every_check_of_the_dataset() {
 }
 
 #[test]
+fn boxes_of_a_camera_on_a_tilting_drone_are_those_of_its_rolling_shutter() {
+    let street = street(
+        "fov_deg = 70.0\n\
+         gimbal = { pitch_range_deg = [-60.0, -50.0], levelled = false, position_in_body_m = [0.1, 0.0, -0.2] }\n\
+         rolling_shutter = { readout_s = 0.06, strips = 6 }",
+    );
+    cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
+    let dataset = street.dataset();
+    cosfly(&["verify", dataset.to_str().expect("UTF-8")]).within(street.path()).run_ok();
+}
+
+#[test]
 fn channels_on_request_are_logged_checked_shown_and_exported_where_a_recipe_asks_for_them() {
     let flows = "\"flow_back\", \"flow_back_valid\", \"flow_forward\", \"flow_forward_valid\", \"depth_sensor\", \"mask_amodal\"";
     let list = format!("[\"normals\", \"rgb\", \"depth\", \"semantic\", \"instance\", \"mask\", {flows}]");

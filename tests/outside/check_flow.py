@@ -14,11 +14,12 @@ import numpy as np
 from shared import axes_of, command_line, end_with, flown, messages, pixels, place, require, rows, turned, world_from_body
 
 RIDER = 13
+VEHICLES = {"bicycle", "motorcycle", "e_scooter", "car", "van", "truck", "bus"}
 MOST_PX = 0.01
 STEP_M = 0.5 / 1024
 LIMB_MPS = 8.0
 EDGE_PX = 0.05
-ANGLES = ["camera_pitch_deg", "camera_yaw_deg", "camera_roll_deg"]
+ANGLES = ["pitch_deg", "yaw_deg", "roll_deg"]
 SPOILT_FLOWS = {None: lambda it: it, "scale": lambda it: it * 1.02, "sign": lambda it: -it, "swap": lambda it: it[..., ::-1], "frame": lambda it: it}
 SPOILT_SHUTTERS = {"readout-sign": -1, "readout-double": 2, "readout-none": 0}
 CHANNELS = ["depth", "instance", "semantic", "flow_forward", "flow_forward_valid", "flow_back", "flow_back_valid"]
@@ -60,7 +61,7 @@ def eye(row):
 
 
 def project(points, row, lens):
-    seen = (points - eye(row)) @ axes_of(row)  # ahead, right, up
+    seen = (points - eye(row)) @ row["axes"]  # ahead, right, up
     ahead = np.where(seen[..., 0] > 0.05, seen[..., 0], np.nan)
     ideal = lens.centre + lens.focal * np.stack([seen[..., 1], -seen[..., 2]], -1) / ahead[..., None]
     return lens.bend(ideal), ahead, ideal[..., 1]
@@ -107,11 +108,20 @@ class Judge:
             self.bodies[row["trajectory_id"], row["frame"]][row["instance"]] = row
 
     def camera(self, flight, frame, offset_s):
-        """The camera some seconds after a frame: it moves evenly from frame to frame, and on beyond the first and the last one."""
+        """The camera some seconds after a frame: the drone moves evenly from frame to frame, and on beyond the first and the last one; its mount goes along."""
         all_rows = self.frames[flight["trajectory_id"]]
         first = int(np.clip(np.floor(frame + offset_s / flight["dt_s"]), 0, len(all_rows) - 2))
-        rows = [{"camera_in_world_m": eye(row)} | {it: row[it] for it in ANGLES} for row in (all_rows[first], all_rows[first + 1])]
-        return later(*rows, frame - first + offset_s / flight["dt_s"], ["camera_in_world_m"], ANGLES)
+        turning = [f"{'camera' if flight['camera_mount_levelled'] else 'drone'}_{angle}" for angle in ANGLES]
+        rows = []
+        for row in (all_rows[first], all_rows[first + 1]):
+            drone, mount = axes_of(row, "drone"), eye(row) - place(row, "drone")
+            rows.append({"drone_m": place(row, "drone"), "mount_m": drone.T @ mount, "in_drone": drone.T @ axes_of(row)} | dict(row))
+        share = frame - first + offset_s / flight["dt_s"]
+        drone = later(*rows, share, ["drone_m", "mount_m"], [f"drone_{angle}" for angle in ANGLES])
+        turned_by = later(*rows, share, [], turning)
+        axes = axes_of(turned_by, turning[0].split("_")[0])
+        at = drone["drone_m"] + axes_of(drone, "drone") @ drone["mount_m"]
+        return {"camera_in_world_m": at, "axes": axes if flight["camera_mount_levelled"] else axes @ rows[0]["in_drone"]}
 
     def bodies_at(self, flight, frame, offset_s):
         """Everybody some seconds after a frame; where others come and go they stand."""
@@ -163,7 +173,7 @@ class Judge:
         ray = np.concatenate([np.ones((*depth.shape, 1)), (centre - lens.centre) / lens.focal * [1, -1]], -1)
         from_ = np.zeros(ray.shape)
         for strip in range(len(offsets)):
-            ray[own == strip] = ray[own == strip] @ axes_of(here[strip]).T
+            ray[own == strip] = ray[own == strip] @ here[strip]["axes"].T
             from_[own == strip] = eye(here[strip])
         kinds = np.zeros(depth.shape, "U8")
         kinds[(ids == 0) | np.isin(ids, list(self.objects))] = "standing"
@@ -172,7 +182,7 @@ class Judge:
             body = self.about(flight, frame).get(instance)
             if body and instance in self.about(flight, other):
                 mask = ids == instance
-                kinds[mask] = "person" if body["kind"] == "pedestrian" else "vehicle"
+                kinds[mask] = "vehicle" if body["kind"] in VEHICLES else "person"
                 kinds[mask & (labels == RIDER)] = "rider"
                 carried += [(instance, strip, mask & (own == strip)) for strip in np.unique(own[mask])]
 

@@ -1,7 +1,9 @@
 //! Table `bodies`: the bodies around the target, against frames, objects and pixels.
 
-use super::body::{Body, SLACK_PX, size_problem};
+use super::body::{Body, PlacedBody, SLACK_PX, size_problem};
+use super::boxes::hull_of;
 use super::files::CheckedFiles;
+use super::film::Film;
 use super::flight_list::FlightList;
 use super::report::VerifyReport;
 use super::rows::{self, PlacedFlight, PlacedFrame, split_of};
@@ -13,30 +15,6 @@ use cosfly_schema::tables::{Bodies, Bodies3d};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-
-/// A body around the target in a frame.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PlacedBody {
-    /// Row in its file.
-    pub row: usize,
-    /// The frame.
-    pub frame: u32,
-    /// Id in instance images; `None` for a body that no picture can show.
-    pub instance: Option<u32>,
-    /// Visible pixels.
-    pub pixels: u32,
-    /// Edges around the visible pixels: left, top, right, bottom.
-    pub visible_box: Option<[f64; 4]>,
-    body_id: String,
-    /// Kind; none of an unknown one.
-    pub kind: Option<BodyKind>,
-    /// Length, width and height, metres.
-    pub size_m: DVec3,
-    /// Heading, radians.
-    pub heading_rad: f64,
-    /// Place of the body, and the space that it may fill.
-    pub space: Body,
-}
 
 /// Places of each flight's bodies in table `bodies`, however the table is cut into files.
 pub struct BodiesIndex {
@@ -165,6 +143,7 @@ pub fn check(
     objects: Option<&BTreeSet<u32>>,
     report: &mut VerifyReport,
 ) {
+    let film = Film { flight, frames, others: bodies, readout: None };
     let largest = objects.and_then(|ids| ids.last().copied()).unwrap_or(1).max(1);
     let mut ids: BTreeMap<u32, &str> = BTreeMap::new();
     let mut last = None;
@@ -189,8 +168,8 @@ pub fn check(
         }
         match frames.get(body.frame as usize) {
             None => find("verify-reference", "the flight has no such frame".to_owned()),
-            Some(frame) => {
-                if let Some(message) = box_problem(flight, frame, body) {
+            Some(_) => {
+                if let Some(message) = box_problem(&film, body) {
                     find("verify-reprojection", message);
                 }
             }
@@ -199,10 +178,10 @@ pub fn check(
 }
 
 /// Whether the box of the visible pixels lies in the projected body.
-fn box_problem(flight: &PlacedFlight, frame: &PlacedFrame, body: &PlacedBody) -> Option<String> {
-    let seen = match (body.pixels, body.visible_box, body.instance) {
+fn box_problem(film: &Film, body: &PlacedBody) -> Option<String> {
+    let (seen, instance) = match (body.pixels, body.visible_box, body.instance) {
         (0, None, _) => return None,
-        (1.., Some(seen), Some(_)) => seen,
+        (1.., Some(seen), Some(instance)) => (seen, instance),
         (pixels, ..) => {
             return Some(format!(
                 "it is seen in {}: with pixels there are a box and an id, without none",
@@ -210,7 +189,7 @@ fn box_problem(flight: &PlacedFlight, frame: &PlacedFrame, body: &PlacedBody) ->
             ));
         }
     };
-    let hull = body.space.hull(flight, &frame.camera_pose)?;
+    let hull = hull_of(film.flight, &film.sights(body.frame as usize, instance, &body.space))?;
     let fits = seen[0] >= hull[0] - SLACK_PX
         && seen[1] >= hull[1] - SLACK_PX
         && seen[2] <= hull[2] + SLACK_PX

@@ -42,6 +42,31 @@ pub struct Body {
     pub has_umbrella: bool,
 }
 
+/// A body around the target in a frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlacedBody {
+    /// Row in its file.
+    pub row: usize,
+    /// The frame.
+    pub frame: u32,
+    /// Id in instance images; `None` for a body that no picture can show.
+    pub instance: Option<u32>,
+    /// Visible pixels.
+    pub pixels: u32,
+    /// Edges around the visible pixels: left, top, right, bottom.
+    pub visible_box: Option<[f64; 4]>,
+    /// Id of the body.
+    pub body_id: String,
+    /// Kind; none of an unknown one.
+    pub kind: Option<BodyKind>,
+    /// Length, width and height, metres.
+    pub size_m: DVec3,
+    /// Heading, radians.
+    pub heading_rad: f64,
+    /// Place of the body, and the space that it may fill.
+    pub space: Body,
+}
+
 impl Body {
     /// The target of a frame.
     pub fn of_target(flight: &PlacedFlight, frame: &PlacedFrame) -> Self {

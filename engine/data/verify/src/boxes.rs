@@ -1,8 +1,9 @@
 //! The stored boxes of a frame, against each other and against the body projected through the stored camera.
 
 use super::body::{Body, SLACK_PX};
-use super::rows::{PlacedFlight, PlacedFrame};
-use cosfly_domain::LensModel;
+use super::film::Film;
+use super::rows::PlacedFlight;
+use cosfly_domain::{LensModel, TARGET_INSTANCE};
 use cosfly_frames::{DVec3, Pose, real};
 
 /// Heights on the axis that the silhouette covers, in body heights.
@@ -18,18 +19,25 @@ const LIMB_LENGTHS: [f64; 3] = [0.38, 0.0, 0.15];
 const THIN_TRUNK_BELOW_PX: f64 = 8.0;
 
 /// The fault of the stored boxes of a frame, in words; `None` for sound ones.
-pub fn box_problem(flight: &PlacedFlight, frame: &PlacedFrame) -> Option<String> {
+pub fn box_problem(film: &Film, number: usize) -> Option<String> {
+    let (flight, frame) = (film.flight, film.frames.get(number)?);
     if frame.in_view != frame.full_box_px.is_some() || (frame.visible_pixels > 0) != frame.visible_box_px.is_some() {
         return Some("flags, pixel count and boxes contradict each other".into());
     }
-    let body = Body::of_target(flight, frame);
+    let sights = film.sights(number, TARGET_INSTANCE, &Body::of_target(flight, frame));
+    let projected = |share: f64| -> Option<Vec<(f64, f64, f64)>> {
+        sights.iter().map(|(pose, body)| flight.project(pose, body.on_axis(share))).collect()
+    };
     let (width, height) = (f64::from(flight.camera.width), f64::from(flight.camera.height));
     let inside_image =
         |u: f64, v: f64| (SLACK_PX..width - SLACK_PX).contains(&u) && (SLACK_PX..height - SLACK_PX).contains(&v);
     let Some(full) = frame.full_box() else {
-        let (u, v, depth) = flight.project(&frame.camera_pose, body.on_axis(AXIS_HEIGHTS[1]))?;
-        let large = flight.camera.focal_px() * 0.1 * body.height_m / depth > SLACK_PX;
-        return (large && inside_image(u, v))
+        let middle = projected(AXIS_HEIGHTS[1])?;
+        let (u, v, _) = *middle.first()?;
+        let is_large = |depth: f64| flight.camera.focal_px() * 0.1 * flight.target_height_m / depth > SLACK_PX;
+        return middle
+            .iter()
+            .all(|(u, v, depth)| is_large(*depth) && inside_image(*u, *v))
             .then(|| format!("it is out of view, but its middle projects to pixel ({u:.1}, {v:.1})"));
     };
     if let Some(seen) = frame.visible_box()
@@ -38,23 +46,41 @@ pub fn box_problem(flight: &PlacedFlight, frame: &PlacedFrame) -> Option<String>
         return Some(format!("the visible box {seen:?} leaves the full box {full:?}"));
     }
     for (share, limb) in AXIS_HEIGHTS.into_iter().zip(LIMB_LENGTHS) {
-        let Some((u, v, depth)) = flight.project(&frame.camera_pose, body.on_axis(share)) else {
+        let Some(places) = projected(share) else {
             return Some("the body is behind the camera and has a box".into());
         };
-        let slack = axis_slack_px(flight.camera.focal_px() * body.height_m / depth, limb);
-        let slack = slack * stretch(flight, &frame.camera_pose, body.on_axis(share));
-        if inside_image(u, v) && !contains(&full, u, v, slack) {
+        let slack_px = |((pose, body), (_, _, depth)): (&(Pose, Body), &(f64, f64, f64))| {
+            let slack = axis_slack_px(flight.camera.focal_px() * body.height_m / depth, limb);
+            slack * stretch(flight, pose, body.on_axis(share))
+        };
+        let slack = sights.iter().zip(&places).map(slack_px).fold(0.0, f64::max);
+        let way = places
+            .iter()
+            .fold([f64::MAX, f64::MAX, f64::MIN, f64::MIN], |way, (u, v, _)| around(way, [*u, *v, *u, *v]));
+        if places.iter().all(|(u, v, _)| inside_image(*u, *v)) && !meets(&full, &way, slack) {
+            let (u, v, _) = places[places.len() / 2];
             return Some(format!(
                 "its body at {share} of its height projects to pixel ({u:.1}, {v:.1}), outside of box {full:?}"
             ));
         }
     }
-    let hull = body.hull(flight, &frame.camera_pose)?;
+    let hull = hull_of(flight, &sights)?;
     let fits = full[0] >= hull[0] - SLACK_PX
         && full[1] >= hull[1] - SLACK_PX
         && full[2] <= hull[2] + SLACK_PX
         && full[3] <= hull[3] + SLACK_PX;
     (!fits).then(|| format!("the box {full:?} is larger than the projected body {hull:.1?}"))
+}
+
+/// Edges, pixels, of the space that a body fills while the rows of a picture are taken; none where part of it is behind the camera.
+pub fn hull_of(flight: &PlacedFlight, sights: &[(Pose, Body)]) -> Option<[f64; 4]> {
+    let (first, rest) = sights.split_first()?;
+    let hull = |(pose, body): &(Pose, Body)| body.hull(flight, pose);
+    rest.iter().try_fold(hull(first)?, |all, sight| Some(around(all, hull(sight)?)))
+}
+
+fn around(one: [f64; 4], other: [f64; 4]) -> [f64; 4] {
+    [one[0].min(other[0]), one[1].min(other[1]), one[2].max(other[2]), one[3].max(other[3])]
 }
 
 /// How much wider than long an equirectangular picture shows a point near its upper and lower edge; 1 of other lenses.
@@ -73,6 +99,10 @@ fn axis_slack_px(height_px: f64, limb: f64) -> f64 {
         _ => 0.0,
     };
     SLACK_PX + height_px * (AXIS_SLACK_PER_HEIGHT + missed)
+}
+
+fn meets(one: &[f64; 4], other: &[f64; 4], slack: f64) -> bool {
+    (0..2).all(|axis| other[axis] <= one[axis + 2] + slack && other[axis + 2] >= one[axis] - slack)
 }
 
 fn contains(pixel_box: &[f64; 4], u: f64, v: f64, slack: f64) -> bool {

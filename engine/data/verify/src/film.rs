@@ -2,7 +2,7 @@
 //!
 //! Rows of a rolling shutter are taken at moments of their own. Between two frames the camera and everybody move evenly.
 
-use super::bodies::PlacedBody;
+use super::body::{Body, PlacedBody};
 use super::rows::{PlacedFlight, PlacedFrame};
 use cosfly_domain::TARGET_INSTANCE;
 use cosfly_frames::{DVec3, Pose, real};
@@ -124,21 +124,33 @@ impl Film<'_> {
         Some(Way { from, to, ahead_m: if point.depth_m.is_finite() { x } else { f64::INFINITY }, row })
     }
 
-    /// Pose of the camera some seconds after a frame.
+    /// Pose of the camera some seconds after a frame: of its mount on the drone, whose place and angles change evenly.
     pub fn pose(&self, frame: usize, offset_s: f64) -> Option<Pose> {
-        let here = &self.frames.get(frame)?.camera_pose;
+        let here = self.frames.get(frame)?;
         if offset_s == 0.0 {
-            return Some(*here);
+            return Some(here.camera_pose);
         }
         let (first, share) = self.between(frame, offset_s)?;
-        let (a, b) = (&self.frames.get(first)?.camera_pose, &self.frames.get(first + 1)?.camera_pose);
+        let (a, b) = (&self.frames.get(first)?.pose, &self.frames.get(first + 1)?.pose);
         let angle = |from: f64, to: f64| from + share * real::wrap_angle_rad(to - from);
-        Some(Pose {
+        Some(self.flight.mount.camera_pose(&Pose {
             position_in_world: a.position_in_world.lerp(b.position_in_world, share),
             pitch_rad: angle(a.pitch_rad, b.pitch_rad),
             yaw_rad: angle(a.yaw_rad, b.yaw_rad),
             roll_rad: angle(a.roll_rad, b.roll_rad),
-        })
+        }))
+    }
+
+    /// Poses of the camera and the space of a body at the beginning, in the middle and at the end of a picture's readout; of the frame's
+    /// own time alone where all rows are taken at once.
+    pub fn sights(&self, frame: usize, instance: u32, space: &Body) -> Vec<(Pose, Body)> {
+        let half_s = 0.5 * self.flight.readout_s;
+        let moments_s: &[f64] = if half_s > 0.0 { &[-half_s, 0.0, half_s] } else { &[0.0] };
+        let sight = |offset_s: &f64| {
+            let feet = self.body(instance, frame, *offset_s)?.0;
+            Some((self.pose(frame, *offset_s)?, Body { feet, ..space.clone() }))
+        };
+        moments_s.iter().filter_map(sight).collect()
     }
 
     /// The frame before a moment, and the share of the way to the next one; beyond the film's ends it goes on.

@@ -1,6 +1,7 @@
 //! [`FlightRows`]: the rows of a flight, and all that they are compared with.
 
-use crate::bodies::{PlacedBody, SpaceOfFlight};
+use crate::bodies::SpaceOfFlight;
+use crate::body::PlacedBody;
 use crate::rows::{PlacedFlight, PlacedFrame};
 use crate::tables::{Extent, LossRow, PairRow};
 use cosfly_read::FlightTrack;

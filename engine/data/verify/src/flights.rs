@@ -1,6 +1,7 @@
 //! All flights, side by side: table `frames` with the tables beside it, and the log of each flight.
 
-use super::bodies::{BodiesIndex, PlacedBody, SpaceOfFlight};
+use super::bodies::{BodiesIndex, SpaceOfFlight};
+use super::body::PlacedBody;
 use super::checks::OF_FLIGHTS;
 use super::files::{CheckedFiles, State};
 use super::flight_rows::FlightRows;

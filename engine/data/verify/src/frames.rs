@@ -1,7 +1,8 @@
 //! The frames of one flight: numbering, times, actions against poses, distances, boxes, occluders, and the row of its pair.
 
-use super::bodies::PlacedBody;
+use super::body::PlacedBody;
 use super::boxes::box_problem;
+use super::film::Film;
 use super::report::VerifyReport;
 use super::rows::{PlacedFlight, PlacedFrame};
 use super::tables::{Extent, PairRow, digest};
@@ -21,6 +22,7 @@ pub fn check_frames(file: &str, flight: &PlacedFlight, frames: &[PlacedFrame], r
             format!("{}; table `trajectories` says {}", counted(frames.len(), "row"), counted(flight.frames, "frame"));
         report.find(file, format!("`{id}`"), "verify-count", message);
     }
+    let film = Film { flight, frames, others: &[], readout: None };
     for (number, frame) in frames.iter().enumerate() {
         let mut find = |rule, message: String| {
             report.find(file, format!("row {}, `{id}` frame {number}", frame.row), rule, message);
@@ -54,7 +56,7 @@ pub fn check_frames(file: &str, flight: &PlacedFlight, frames: &[PlacedFrame], r
         if !visible.iter().all(|share| (0.0..=1.0).contains(share)) {
             find("verify-visibility", format!("shares {visible:?} must lie between 0 and 1"));
         }
-        if let Some(message) = box_problem(flight, frame) {
+        if let Some(message) = box_problem(&film, number) {
             find("verify-reprojection", message);
         }
         let placed = flight.mount.camera_pose(&frame.pose);

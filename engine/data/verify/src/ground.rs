@@ -1,6 +1,6 @@
 //! Bodies below drawn ground: what pictures show of the ground around feet, against the feet of the tables.
 
-use super::bodies::PlacedBody;
+use super::body::PlacedBody;
 use super::rows::{PlacedFlight, PlacedFrame};
 use cosfly_domain::TARGET_INSTANCE;
 use cosfly_frames::DVec3;

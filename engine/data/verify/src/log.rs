@@ -1,7 +1,6 @@
 //! The log of one flight: its own checksums, then its messages against the rows of the tables.
 
-use super::bodies::PlacedBody;
-use super::body::Body;
+use super::body::{Body, PlacedBody};
 use super::captions::Caption;
 use super::film::{Film, readout_of};
 use super::flow::Carrier;

@@ -93,8 +93,8 @@ impl Rate {
 pub struct FilmedFlight<'a> {
     shooting: &'a Shooting,
     track: &'a TargetTrack,
-    /// Poses in all frames of the flight: of the camera, of a film between frames of the drone, which the camera turns with.
-    poses: Vec<Pose>,
+    /// Poses of the drone in all frames of the flight.
+    poses: &'a [Pose],
     walked_m: Vec<f64>,
     rate: Rate,
 }
@@ -103,14 +103,13 @@ impl<'a> FilmedFlight<'a> {
     /// The film of a flight as the settings of a camera ask.
     pub fn new(shooting: &'a Shooting, flight: &'a Trajectory, config: &RenderConfig) -> Self {
         let (rate, walked_m) = (Rate::of(config, flight.track.dt_s), walked_m(&flight.track.states));
-        let poses = if rate.after_s > 0.0 { flight.poses_in_world.clone() } else { shooting.poses(flight) };
-        Self { shooting, track: &flight.track, poses, walked_m, rate }
+        Self { shooting, track: &flight.track, poses: &flight.poses_in_world, walked_m, rate }
     }
 
-    /// Pose of the camera some seconds after a frame of the film.
+    /// Pose of the camera some seconds after a frame of the film: of its mount on the drone, whose place and angles change evenly. Angles
+    /// of a camera that looks straight down jump from frame to frame, those of the drone do not.
     pub fn pose(&self, frame: usize, offset_s: f64) -> Pose {
-        let pose = pose_at(&self.poses, self.rate.at(frame, offset_s));
-        if self.rate.after_s > 0.0 { self.shooting.mount.camera_pose(&pose) } else { pose }
+        self.shooting.mount.camera_pose(&pose_at(self.poses, self.rate.at(frame, offset_s)))
     }
 
     /// Frames of the flight that the film has.
@@ -299,7 +298,7 @@ fn present(mut around: Around) -> Around {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cosfly_domain::{Body, BodyKind, BodyPlan, Certificate, Traffic};
+    use cosfly_domain::{Body, BodyKind, BodyPlan, Certificate, Mount, Traffic};
     use cosfly_frames::{DVec3, Seed};
     use cosfly_geometry::BoxBvh;
     use cosfly_surroundings::moving::drone_boxes;
@@ -323,22 +322,15 @@ mod tests {
         assert!((step_s(7, 1.0 / 30.0) - 7.0 / 30.0).abs() < 1e-12);
     }
 
-    #[test]
-    fn a_film_of_every_third_frame_has_the_flight_s_own_frames_and_its_own_figures() {
-        let pose = |k: u32| Pose {
-            position_in_world: DVec3::new(f64::from(k), 0.0, 5.0),
-            pitch_rad: 0.0,
-            yaw_rad: 0.1 * f64::from(k % 2),
-            roll_rad: 0.0,
-        };
-        let flight = Trajectory {
+    fn flight(poses_in_world: Vec<Pose>) -> Trajectory {
+        Trajectory {
             track: TargetTrack {
                 dt_s: 0.5,
                 height_m: 1.8,
                 radius_m: 0.3,
                 states: (0..8).map(|k| state(f64::from(k))).collect(),
             },
-            poses_in_world: (0..8).map(pose).collect(),
+            poses_in_world,
             visibility: vec![1.0, 0.0, 0.0, 0.25, 0.0, 0.0, 1.0, 0.0],
             clearance_m: vec![2.0; 8],
             terms: vec![],
@@ -347,7 +339,44 @@ mod tests {
             convergence: vec![],
             certificate: Certificate { max_speed_mps: 2.0, ..Certificate::default() },
             perturbation: None,
+        }
+    }
+
+    #[test]
+    fn a_camera_that_looks_down_turns_with_the_drone_between_frames() {
+        let pose = |k: u32| Pose {
+            position_in_world: DVec3::new(f64::from(k), 0.0, 30.0),
+            pitch_rad: -0.5,
+            yaw_rad: 0.2 * f64::from(k),
+            roll_rad: if k.is_multiple_of(2) { 0.1 } else { -0.1 },
         };
+        let flight = flight((0..8).map(pose).collect());
+        let mut shooting = Shooting::plain(Seed::from_recipe(1));
+        shooting.mount = Mount { pitch_rad: -1.05, levelled: false, ..Mount::default() };
+        let film = FilmedFlight::new(&shooting, &flight, &every(1));
+        // Angles of the camera jump between the first two frames, by more than a quarter of a turn: it looks past straight down.
+        let poses = shooting.poses(&flight);
+        assert!(real::wrap_angle_rad(poses[1].yaw_rad - poses[0].yaw_rad).abs() > 1.5, "{poses:?}");
+        let turned_rad = |from_s: f64, to_s: f64| {
+            let axes = [from_s, to_s].map(|offset_s| film.pose(0, offset_s).world_from_body());
+            let [x, y, z] = [0, 1, 2].map(|column| axes[0].col(column).distance_squared(axes[1].col(column)));
+            2.0 * real::asin((0.125 * (x + y + z)).sqrt())
+        };
+        let whole_rad = turned_rad(0.0, 0.5);
+        let step_rad = |k: u32| turned_rad(0.05 * f64::from(k), 0.05 * f64::from(k + 1));
+        assert!((0..10).all(|k| (step_rad(k) - 0.1 * whole_rad).abs() < 0.02 * whole_rad), "{whole_rad}");
+        assert_eq!(film.pose(3, 0.0), poses[3]);
+    }
+
+    #[test]
+    fn a_film_of_every_third_frame_has_the_flight_s_own_frames_and_its_own_figures() {
+        let pose = |k: u32| Pose {
+            position_in_world: DVec3::new(f64::from(k), 0.0, 5.0),
+            pitch_rad: 0.0,
+            yaw_rad: 0.1 * f64::from(k % 2),
+            roll_rad: 0.0,
+        };
+        let flight = flight((0..8).map(pose).collect());
         let film = filmed_flight(
             flight.clone(),
             &every(3),
