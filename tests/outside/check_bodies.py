@@ -1,7 +1,7 @@
-"""Judges the moving world of a dataset from its tables: bodies, flights among them, losses, look-alikes.
+"""Judges the moving world of a dataset from its tables: bodies, flights among them and among what stands, losses, look-alikes.
 
-Usage: `check_bodies.py DATASET_FOLDER`. Shares no code with cosfly. No two bodies may overlap; no flight may come nearer to a body than its
-certificate says, at 20 moments between frames; table `target_losses` must be what `frames` shows; `look_alikes` must be the number of visible people
+Usage: `check_bodies.py DATASET_FOLDER`. Shares no code with cosfly. No two bodies may overlap; no flight may come nearer to a body, or to a box of
+the town, than its certificate says, at 20 moments between frames; table `target_losses` must be what `frames` shows; `look_alikes` must be the number of visible people
 in the target's clothes. Prints the smallest distances."""
 
 import sys
@@ -10,9 +10,9 @@ from itertools import groupby
 from pathlib import Path
 
 import numpy as np
-from shared import end_with, place, rows, turned
+from shared import Town, end_with, place, rows, turned
 
-BETWEEN = 20
+BETWEEN, FAR_M = 20, 40
 # People are circles from above, all others boxes.
 ROUND = {"pedestrian", "runner", "child", "elder", "push_chair", "dog_walker", "wheelchair", "sitter"}
 
@@ -44,20 +44,27 @@ def to_box(point, feet, yaw, size):
     return np.linalg.norm(np.maximum(excess, 0)) + min(excess.max(), 0)
 
 
+def to_town(way, town):
+    """Distance of a way, places in turn, from what stands in a town, metres; at most FAR_M."""
+    near = np.flatnonzero(np.hypot(*(town.center[:, :2] - way[0, :2]).T) - town.reach < FAR_M)
+    excess = np.abs(town.own(near, way[:, None] - town.center[near])) - town.half[near]
+    return (np.linalg.norm(np.maximum(excess, 0), axis=-1) + np.minimum(excess.max(-1), 0)).min(initial=FAR_M)
+
+
 def main(folder):
-    wrong = []
+    wrong, towns = [], Town.all_of(folder)
     for row in rows(folder, "rejected", ["trajectory_id", "reason"]) if (folder / "data/rejected").is_dir() else []:
         if "occlusion" in row["reason"]:
             wrong.append(f"{row['trajectory_id']} was rejected for its parameters: {row['reason']}")
     flights = {row["trajectory_id"]: row for row in rows(folder, "trajectories", [
-        "trajectory_id", "target_kind", "target_top_colour", "target_trousers_colour", "target_has_backpack", "min_clearance_m", "dt_s"])}
+        "trajectory_id", "town", "target_kind", "target_top_colour", "target_trousers_colour", "target_has_backpack", "min_clearance_m", "dt_s"])}
     frames = defaultdict(dict)
     for row in rows(folder, "frames", ["trajectory_id", "frame", "drone_x_m", "drone_y_m", "drone_z_m", "visible_pixels", "in_view", "look_alikes"]):
         frames[row["trajectory_id"]][row["frame"]] = row
     bodies = defaultdict(lambda: defaultdict(dict))
     for row in rows(folder, "bodies", ["trajectory_id", "frame", "body_id", "kind", "feet_in_world_m", "heading_deg", "size_m"]):
         bodies[row["trajectory_id"]][row["frame"]][row["body_id"]] = row
-    nearest_two = nearest_flight = np.inf
+    nearest_two = nearest_flight = nearest_town = np.inf
     for name, by_frame in bodies.items():
         least = flights[name]["min_clearance_m"]
         for frame, present in by_frame.items():
@@ -74,12 +81,17 @@ def main(folder):
                         wrong.append(f"{name} frame {frame}: bodies {listed[i]['body_id']} and {listed[j]['body_id']} overlap by {-apart:.3f} m")
             here, there = frames[name][frame], frames[name].get(frame + 1)
             start, end = (place(row, "drone") for row in (here, there or here))
+            way = start + np.arange(BETWEEN)[:, None] / BETWEEN * (end - start)
+            apart = to_town(way, towns[flights[name]["town"]])
+            nearest_town = min(nearest_town, apart)
+            if apart < least - 0.01:
+                wrong.append(f"{name} frame {frame}: the drone is {apart:.2f} m from the town; the certificate says {least:.2f} m")
             for share in np.arange(BETWEEN) / BETWEEN if there else [0.0]:
                 drone = start + share * (end - start)
                 for body in present.values():
                     later = by_frame.get(frame + 1, {}).get(body["body_id"], body)
                     feet = np.array(body["feet_in_world_m"]) + share * (np.array(later["feet_in_world_m"]) - body["feet_in_world_m"])
-                    if np.abs(drone - feet).max() > 40:
+                    if np.abs(drone - feet).max() > FAR_M:
                         continue
                     turn = turned(later["heading_deg"], body["heading_deg"])
                     apart = to_box(drone, feet, np.radians(body["heading_deg"] + share * turn), body["size_m"])
@@ -110,7 +122,7 @@ def main(folder):
                 wrong.append(f"{name}: the target is lost from frame {start} to {end}; the table says otherwise")
     wrong += [f"{name} frame {frame}: the table states a loss that is none" for name, frame in stated]
     print(f"{folder}: {sum(len(it) for it in bodies.values())} frames with bodies, two bodies {nearest_two:.3f} m apart at least, flights",
-          f"{nearest_flight:.2f} m from bodies at least; {losses} losses; {len(wrong)} things wrong")
+          f"{nearest_flight:.2f} m from bodies and {nearest_town:.2f} m from the town at least; {losses} losses; {len(wrong)} things wrong")
     return wrong
 
 

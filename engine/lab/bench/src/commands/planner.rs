@@ -13,10 +13,8 @@ use cosfly_lab::planner::{Contender, PathOutcome, PlannerOptions, front, outcome
 use cosfly_planner::MucoConfig;
 use cosfly_scenes::SceneKind;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::fs::File;
-use std::io::{BufWriter, IsTerminal, Write};
+use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 
 /// Default scenes of the table.
 const SCENES: [SceneKind; 5] =
@@ -42,8 +40,7 @@ Examples:
   cosfly-lab planner --many 6000                           a dataset's worth on all cores
   cosfly-lab planner --many 10000 --seed 1000              the same to count collisions (there should be none)
   cosfly-lab planner --many 10000 --movers 50              the same among people, vehicles and things that fly
-  cosfly-lab planner --many 40 --movers 50 --planner astar A* among the same, by the same judge
-  cosfly-lab planner --many 200 --movers 50 --flights flights.bin   flights for judges outside";
+  cosfly-lab planner --many 40 --movers 50 --planner astar A* among the same, by the same judge";
 
 /// Arguments of `planner`.
 #[derive(Args, Debug)]
@@ -69,9 +66,6 @@ pub struct PlannerArguments {
     /// Boxes that move around each walker; their paths are also planned without them, to compare the time
     #[arg(long, value_name = "N", default_value_t = 0, requires = "many")]
     pub movers: usize,
-    /// Write the flights and all boxes into this file or named pipe, for judges that share no code with cosfly
-    #[arg(long, value_name = "FILE", requires = "many")]
-    pub flights: Option<PathBuf>,
     /// Time the paper's pipeline without a tree, with a tree, and with the boxes near the path
     #[arg(long, conflicts_with_all = ["many", "planners"])]
     pub solver: bool,
@@ -108,7 +102,7 @@ pub fn planner(arguments: &PlannerArguments) -> Outcome {
         bar.set_position(done as u64);
     };
     let done = match arguments.many {
-        Some(count) => flown_in_bulk(arguments, count, &progress),
+        Some(count) => Ok(flown_in_bulk(arguments, count, &progress)),
         None => compared(arguments, &progress),
     };
     bar.finish_and_clear();
@@ -116,25 +110,13 @@ pub fn planner(arguments: &PlannerArguments) -> Outcome {
 }
 
 /// Runs `--many`: one planner, all cores.
-fn flown_in_bulk(
-    arguments: &PlannerArguments,
-    count: usize,
-    progress: &(dyn Fn(usize, usize) + Sync),
-) -> Result<String, Refusals> {
+fn flown_in_bulk(arguments: &PlannerArguments, count: usize, progress: &(dyn Fn(usize, usize) + Sync)) -> String {
     let contender = contenders(arguments).first().copied().unwrap_or(Contender::Cosfly);
     let kinds = if arguments.scenes.is_empty() { SceneKind::ALL.to_vec() } else { kinds(arguments) };
     let (seed, config) = (arguments.seed.unwrap_or(SEED), MucoConfig::default());
-    let unwritten = |error: std::io::Error| {
-        let to = arguments.flights.as_deref().unwrap_or(Path::new("")).display().to_string();
-        vec![Diagnostic::io(format!("write flights to `{to}`"), &error)]
-    };
-    let file = arguments.flights.as_ref().map(File::create).transpose().map_err(unwritten)?;
-    let file = file.map(|file| Mutex::new(BufWriter::new(file)));
-    let out = file.as_ref().map(|file| file as &Mutex<dyn Write + Send>);
     let movers = arguments.movers;
-    let report =
-        many(&ManyOptions { kinds, seed, count, movers, contender, config, progress, out }).map_err(unwritten)?;
-    Ok(if arguments.json { json(&report) } else { report.to_string() })
+    let report = many(&ManyOptions { kinds, seed, count, movers, contender, config, progress });
+    if arguments.json { json(&report) } else { report.to_string() }
 }
 
 /// Prints the tables: every planner on every path, the planner's steps, or the paper's solver table.

@@ -6,7 +6,6 @@
 use super::contacts::least_distance_m;
 use super::contender::{Contender, Planned};
 use super::figures::COLLISION_M;
-use super::given_out::{self, FlightAmong};
 use super::plain_bvh::PlainBvh;
 use super::scene::Ground;
 use crate::clock::timed;
@@ -20,8 +19,6 @@ use cosfly_surroundings::exact::ExactMap;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::fmt;
-use std::io::{self, Write};
-use std::sync::Mutex;
 use std::time::Instant;
 
 /// Walkers per generated scene.
@@ -53,8 +50,6 @@ pub struct ManyOptions<'a> {
     pub config: MucoConfig,
     /// Callback after every round: finished and total numbers.
     pub progress: &'a (dyn Fn(usize, usize) + Sync),
-    /// Where flights and boxes are written for other judges, as [`given_out`] says.
-    pub out: Option<&'a Mutex<dyn Write + Send>>,
 }
 
 /// Results of the measurement.
@@ -126,10 +121,7 @@ struct Verdict {
 }
 
 /// Plans and evaluates `count` paths.
-///
-/// # Errors
-/// Those of the writer of the options.
-pub fn many(options: &ManyOptions<'_>) -> io::Result<ManyReport> {
+pub fn many(options: &ManyOptions<'_>) -> ManyReport {
     let mut report = ManyReport {
         planner: options.contender.name().to_owned(),
         threads: rayon::current_num_threads(),
@@ -140,14 +132,14 @@ pub fn many(options: &ManyOptions<'_>) -> io::Result<ManyReport> {
     };
     let scenes: Vec<(SceneKind, u64, usize)> = scenes(options);
     for round in scenes.chunks(SCENES_PER_ROUND) {
-        plan_round(options, round, &mut report)?;
+        plan_round(options, round, &mut report);
         (options.progress)(report.paths, options.count);
     }
     report.visibility /= report.planned.max(1) as f64;
     let papers_s = PAPER_S_PER_TRAJECTORY * report.paths as f64;
     report.times_paper = papers_s / report.planning_wall_s.max(1e-9);
     report.times_paper_undisturbed = papers_s * report.threads as f64 / report.planning_cpu_s.max(1e-9);
-    Ok(report)
+    report
 }
 
 /// (kind, seed, walkers) of every required scene.
@@ -161,17 +153,17 @@ fn scenes(options: &ManyOptions<'_>) -> Vec<(SceneKind, u64, usize)> {
     (0..options.count.div_ceil(WALKERS)).map(scene).collect()
 }
 
-fn plan_round(options: &ManyOptions<'_>, round: &[(SceneKind, u64, usize)], report: &mut ManyReport) -> io::Result<()> {
-    let grounds: Vec<(Ground, PlainBvh, u64, Vec<OrientedBox>)> = round
+fn plan_round(options: &ManyOptions<'_>, round: &[(SceneKind, u64, usize)], report: &mut ManyReport) {
+    let grounds: Vec<(Ground, PlainBvh, u64)> = round
         .par_iter()
         .map(|&(kind, seed, walkers)| {
             let (ground, boxes) = Ground::scene_and_boxes(kind, seed, walkers);
-            (ground, PlainBvh::build(&boxes), seed, boxes)
+            (ground, PlainBvh::build(&boxes), seed)
         })
         .collect();
     let jobs: Vec<Job<'_>> = grounds
         .iter()
-        .flat_map(|(ground, judge, seed, _)| {
+        .flat_map(|(ground, judge, seed)| {
             ground.tracks.iter().enumerate().map(move |(path, track)| {
                 let name = format!("{} --seed {seed}, path {path}", ground.name);
                 let own = Seed::of_item(*seed, "movers", &ground.name).child("path", path as u64);
@@ -196,19 +188,6 @@ fn plan_round(options: &ManyOptions<'_>, round: &[(SceneKind, u64, usize)], repo
         report.planning_cpu_s += cpu_s;
         report.add(job, verdict, &options.config);
     }
-    let Some(out) = options.out else { return Ok(()) };
-    let mut out = out.lock().map_err(|_| io::Error::other("the writer is lost"))?;
-    let mut flights = jobs.iter().zip(&planned);
-    for (ground, _, _, boxes) in &grounds {
-        given_out::scene(&mut *out, boxes)?;
-        for (job, (planned, _)) in flights.by_ref().take(ground.tracks.len()) {
-            let waypoints = planned.as_ref().ok().map(|planned| planned.waypoints.as_slice());
-            let (name, dt_s, movers) = (job.name.as_str(), job.track.dt_s, job.movers.as_slice());
-            let clearance_m = options.config.stated_limits().clearance_m;
-            given_out::flight(&mut *out, &FlightAmong { name, dt_s, clearance_m, waypoints, movers })?;
-        }
-    }
-    Ok(())
 }
 
 fn judge(job: &Job<'_>, planned: &Result<Planned, String>) -> Result<Verdict, String> {
@@ -319,7 +298,7 @@ mod tests {
     fn check(contender: Contender, config: MucoConfig) -> ManyReport {
         let kinds = vec![SceneKind::Alley, SceneKind::Canyon];
         let (seed, count, movers, progress) = (3, 23, 50, &|_, _| {});
-        many(&ManyOptions { kinds, seed, count, movers, contender, config, progress, out: None }).expect("no writer")
+        many(&ManyOptions { kinds, seed, count, movers, contender, config, progress })
     }
 
     #[test]

@@ -8,7 +8,6 @@ pub mod contacts;
 pub mod contender;
 pub mod figures;
 pub mod front;
-pub mod given_out;
 pub mod many;
 pub mod outcomes;
 pub mod phases;
