@@ -85,6 +85,11 @@ def test_everything_that_fails_raises_an_error_with_a_code(name):
         (lambda: cosfly.preview("data", trajectory="x"), "`trajectory_id`"),
         (lambda: cosfly.evaluate("data", splits_="x"), "did you mean `splits`"),
         (lambda: cosfly.export("data", "v7", "x", threads=2), "`jobs`"),
+        (lambda: cosfly.pack("data", "x", threads=2), "`jobs`"),
+        (lambda: cosfly.pack("data", "x", overrides={"size": 2}), "no option `overrides`"),
+        (lambda: cosfly.Expert("small", threads=2), r"`jobs` of the method `plan_from\(\)`"),
+        (lambda: cosfly.Expert("small", overrides={}), "`set`"),
+        (lambda: cosfly.Expert("small").plan_from([], threads=2), "`jobs`"),
     ],
 )
 def test_keywords_that_are_none_are_refused_with_the_name_that_was_meant(work, words):

@@ -1,4 +1,7 @@
-"""The commands of cosfly as functions with typed results."""
+"""The commands of cosfly as functions with typed results.
+
+A function writes its options as arguments of the command and reads the command's ``--json``. The command line checks each option and says
+what is allowed; bound one by one, the 58 options of these functions would be declared, converted and checked a second time, in Rust."""
 
 from __future__ import annotations
 
@@ -239,7 +242,7 @@ def init(folder: PathLike = "town", template: Optional[str] = None) -> Path:
     return Path(folder)
 
 
-@options(overrides="`set`", threads="`jobs`")
+@options()
 def run(
     recipe: Recipe,
     *,
@@ -262,7 +265,7 @@ def run(
     return _known(RunResult, {**found, "stages": stages, "out": folder, "messages": messages})
 
 
-@options(overrides="`set`")
+@options()
 def plan(recipe: Recipe, *, set: Settings = None, store: Optional[PathLike] = None) -> PlanResult:
     """What :func:`run` would do, and why."""
     _, text, _ = _with_recipe(["plan", "--json"], recipe, set, _options(store=store), False)
@@ -271,14 +274,14 @@ def plan(recipe: Recipe, *, set: Settings = None, store: Optional[PathLike] = No
     return _known(PlanResult, {**found, "stages": stages})
 
 
-@options(overrides="`set`")
+@options()
 def why(recipe: Recipe, subject: str, *, set: Settings = None, store: Optional[PathLike] = None) -> WhyResult:
     """Which field or input changed since a stage or an item (``expert/p00003``) was last made."""
     _, text, _ = _with_recipe(["why", "--json"], recipe, set, _options(store=store), False, [subject])
     return _known(WhyResult, json.loads(text))
 
 
-@options(overrides="`set`", threads="`jobs`")
+@options()
 def verify(
     dataset: PathLike,
     *,
@@ -362,7 +365,7 @@ def evaluate(
     return EvaluateResult(json.loads(text), folder, code == 0)
 
 
-@options(split="`splits`", trajectory="`trajectory_ids`", threads="`jobs`")
+@options(split="`splits`", trajectory="`trajectory_ids`")
 def export(
     dataset: PathLike,
     format: str,

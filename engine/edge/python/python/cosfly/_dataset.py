@@ -75,7 +75,7 @@ class Dataset:
     identity: str = ""
     """Digest that tells this dataset from others: of cosfly's own, the hash of ``files.parquet``."""
 
-    @options(windows="the method `windows()` of the dataset", threads="`jobs`")
+    @options(windows="the method `windows()` of the dataset")
     def __init__(
         self,
         path: PathLike,

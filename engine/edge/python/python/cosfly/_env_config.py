@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Mapping, NamedTuple, Sequence
 
 from . import _cosfly
 from ._calls import settings_of
-from ._errors import InvalidValue, WrongType, names_of, number_of, path_of, size_of
+from ._errors import FORMER, InvalidValue, WrongType, names_of, number_of, path_of, size_of
 
 if TYPE_CHECKING:
     from typing import TypedDict
@@ -69,7 +69,6 @@ OBSERVATIONS = ("state", *CHANNELS, *SENSORS)
 LOOKS = ("simple", "full")
 """Looks of colours."""
 _LARGEST_SIZE = 2048
-_FORMER = {"overrides": "set", "threads": "jobs"}
 
 
 @dataclass(frozen=True)
@@ -131,7 +130,7 @@ class EnvConfig:
         known = [field.name for field in dataclasses.fields(cls) if field.name != "recipe"]
         for name in options:
             if name not in known:
-                near = _FORMER.get(name) or next(iter(difflib.get_close_matches(name, known, 1)), None)
+                near = FORMER.get(name) or next(iter(difflib.get_close_matches(name, known, 1)), None)
                 advice = f"did you mean `{near}`?" if near else f"the settings are {', '.join(known)}"
                 raise WrongType(f"environments have no setting `{name}`; {advice}")
         return cls(recipe, **options)

@@ -146,18 +146,23 @@ def _listed(names: Sequence[str]) -> str:
     return ", ".join(f"`{name}`" for name in names)
 
 
+FORMER = {"overrides": "set", "threads": "jobs"}
+"""Former names of options that several functions have, and what they are called now."""
+
+
 def options(**gone: str) -> Callable[[Call], Call]:
-    """Refuses keywords that a function does not have, with the nearest name; ``gone`` says what former ones are called now."""
+    """Refuses keywords that a function does not have, with the nearest name; ``gone`` says what its own former ones are called now."""
 
     def of(function: Call) -> Call:
         known = inspect.signature(function).parameters
         takes_more = any(it.kind is it.VAR_KEYWORD for it in known.values())
+        now = {name: f"`{it}`" for name, it in FORMER.items() if it in known} | gone
 
         @functools.wraps(function)
         def call(*values: Any, **given: Any) -> Any:
             for name in given:
-                if name in gone:
-                    raise WrongType(f"`{name}` is no option any more: use {gone[name]}")
+                if name in now:
+                    raise WrongType(f"`{name}` is no option any more: use {now[name]}")
                 if name not in known and not takes_more:
                     near = difflib.get_close_matches(name, known, 1)
                     raise WrongType(f"there is no option `{name}`" + (f"; did you mean `{near[0]}`?" if near else ""))

@@ -45,7 +45,7 @@ class Expert:
     anew takes a new object.
     """
 
-    @options(overrides="`set`")
+    @options(threads="`jobs` of the method `plan_from()`")
     def __init__(self, recipe: PathLike, *, set: Settings = None, store: Optional[PathLike] = None):
         place = None if store is None else path_of(store)
         self._options = json.dumps({"recipe": path_of(recipe, "the recipe of an expert"), "set": settings_of(set), "store": place})
@@ -54,7 +54,7 @@ class Expert:
     def __getstate__(self) -> Dict[str, Any]:
         return {**self.__dict__, "_opened": (-1, None)}
 
-    @options(threads="`jobs`")
+    @options()
     def plan_from(self, states: Sequence[Mapping[str, Any]], *, jobs: Optional[int] = None) -> List[Answer]:
         """Ask about states, in their order, over ``jobs`` or all cores.
 

@@ -23,7 +23,7 @@ FORMAT = "cosfly-pack-2"
 CHUNK = 64
 
 
-@options(threads="`jobs`")
+@options()
 def pack(
     dataset: PathLike,
     out: PathLike,
