@@ -7,7 +7,7 @@ use cosfly_domain::{Around, Followed, PlanOutcome, Town, Traffic};
 use cosfly_film::nearby::{NearbyBodies, NearbyWalk};
 use cosfly_flight::formation::Formation;
 use cosfly_flight::losses::Trial;
-use cosfly_flight::{Companion, Flown};
+use cosfly_flight::{Flown, NamedTrack};
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_schema::Rejection;
 use cosfly_stage::{Artifact, Inputs};
@@ -32,7 +32,7 @@ pub const WALK: Kind<PedestrianPath> = Kind::new("walk/2", "walk");
 /// The body of traffic that a walk or a flight follows.
 pub const FOLLOWED: Kind<Followed> = Kind::new("walk/2", "followed");
 /// Companions of a flight.
-pub const COMPANIONS: Kind<Vec<Companion>> = Kind::new("companions/1", "companions");
+pub const COMPANIONS: Kind<Vec<NamedTrack>> = Kind::new("companions/1", "companions");
 /// All people and vehicles that move through a town; the part and the blob have one name.
 pub const TRAFFIC: Kind<Traffic> = Kind::new("traffic/1", "bodies");
 /// Bodies around the target of a flight.

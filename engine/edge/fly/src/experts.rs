@@ -4,7 +4,7 @@ use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
 use cosfly_domain::PlanOutcome;
 use cosfly_experts::plugins::Plugins;
 use cosfly_experts::{Kind, RecipeExpert, artifacts};
-use cosfly_flight::{Companion, Flight, MovingBodies, World};
+use cosfly_flight::{Flight, MovingBodies, NamedTrack, World};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_recipe::{Arrival, Recipe, RecipeStage};
 use cosfly_runner::Plan;
@@ -128,7 +128,7 @@ impl<'a> Experts<'a> {
         Ok(world)
     }
 
-    fn companions(&self, stage: usize, item: usize) -> Result<Vec<Companion>> {
+    fn companions(&self, stage: usize, item: usize) -> Result<Vec<NamedTrack>> {
         let part = self.plan.recipe.stages[stage].connection(artifacts::COMPANIONS.blob);
         let Some(chosen) = part.and_then(|part| part.arrivals.get(item)) else { return Ok(vec![]) };
         let blobs = self.blobs(chosen.stage, chosen.item)?;

@@ -6,7 +6,7 @@ use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_experts::artifacts;
 use cosfly_experts::world::check_same_town;
-use cosfly_flight::companions::{Companion, nearest};
+use cosfly_flight::companions::{NamedTrack, nearest};
 use cosfly_frames::TargetTrack;
 use cosfly_stage::{
     Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Resources, Stage, StagePart, StageProperties,
@@ -37,7 +37,7 @@ pub fn port(optional: bool) -> InputPort {
 }
 
 /// Companions at the port of [`port`]; none where it is not connected.
-pub fn read(inputs: &Inputs<'_>) -> Result<Vec<Companion>> {
+pub fn read(inputs: &Inputs<'_>) -> Result<Vec<NamedTrack>> {
     let artifact = inputs.all(NAME).first();
     artifact.map_or(Ok(vec![]), |artifact| artifacts::COMPANIONS.read(inputs, artifact))
 }
@@ -60,7 +60,7 @@ impl Stage for CompanionsStage {
 }
 
 impl CompanionsStage {
-    fn choose(&self, inputs: &Inputs<'_>) -> Result<Vec<Companion>> {
+    fn choose(&self, inputs: &Inputs<'_>) -> Result<Vec<NamedTrack>> {
         check_same_town(inputs, "walks")?;
         check_same_town(inputs, "others")?;
         let own = inputs.one("walks")?;

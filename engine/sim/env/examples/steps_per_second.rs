@@ -53,7 +53,7 @@ fn episodes(scene: &SeededScene, place: &Arc<FlightSite>, people: u64) -> Vec<Ar
 }
 
 fn measure(episodes: &[Arc<Episode>], people: u64) {
-    let around = episodes.iter().map(|episode| episode.others.movers().len()).sum::<usize>() / episodes.len();
+    let around = episodes.iter().map(|episode| episode.others.bodies().len()).sum::<usize>() / episodes.len();
     println!("{people} people, {around} of them near a target");
     for threads in [1, 2] {
         let began = Instant::now();

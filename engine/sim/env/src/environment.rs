@@ -135,7 +135,7 @@ impl Environment {
         let (camera, settings, place) = (self.camera(), &self.settings, &self.episode.place);
         let eye = camera.position_in_world;
         let is_seen = |present: &BodyAtTime<'_>| {
-            let middle = aim_point(&present.state, present.mover.plan.size_m.z);
+            let middle = aim_point(&present.state, present.body.plan.size_m.z);
             let is_near = eye.distance(middle) <= settings.farthest_m;
             is_near && settings.lens.shows(&camera, middle) && !place.exact.blocked(eye, middle)
         };

@@ -35,7 +35,7 @@ pub struct Episode {
     pub looks: Seed,
     /// Weather of colours; noon under a clear sky where there is none.
     pub weather: Option<Weather>,
-    /// Who moves around the target.
+    /// Bodies that move around the target.
     pub others: Arc<Others>,
     /// State of the drone at the beginning; the camera is aimed at the target.
     pub start: Start,

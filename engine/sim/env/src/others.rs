@@ -15,11 +15,11 @@ const STRETCH_S: f64 = 4.0;
 /// Slack of distances that leave a body out above those that count: more than errors of rounding and of clearances, metres.
 const SLACK_M: f64 = 0.05;
 
-/// Who moves around the target.
+/// Bodies that move around the target.
 #[derive(Clone, Debug, Default)]
 pub struct Others {
-    movers: Vec<Mover>,
-    /// Who is there in each stretch of [`STRETCH_S`]; the first begins before all time, after the last one nobody is there.
+    bodies: Vec<OtherBody>,
+    /// Numbers of those who are there in each stretch of [`STRETCH_S`]; the first begins before all time, after the last one nobody is there.
     stretches: Vec<Vec<Passing>>,
 }
 
@@ -33,12 +33,12 @@ struct Passing {
     /// Highest point on all its way, world frame, metres.
     top_m: f64,
     is_look_alike: bool,
-    mover: usize,
+    body: usize,
 }
 
-/// A person or vehicle.
+/// A person or vehicle beside the target.
 #[derive(Clone, Debug)]
-pub struct Mover {
+pub struct OtherBody {
     /// Number of the body in the traffic of its town.
     pub number: u32,
     /// Kind, size and looks.
@@ -50,7 +50,7 @@ pub struct Mover {
     states: Vec<TargetState>,
     /// Distance covered up to each state, metres.
     covered_m: Vec<f64>,
-    /// Its highest point on all its way, world frame, metres.
+    /// Highest point on all its way, world frame, metres.
     top_m: f64,
 }
 
@@ -58,7 +58,7 @@ pub struct Mover {
 #[derive(Clone, Copy, Debug)]
 pub struct BodyAtTime<'a> {
     /// The body.
-    pub mover: &'a Mover,
+    pub body: &'a OtherBody,
     /// Place, heading, speed.
     pub state: TargetState,
     /// Distance covered since its first state, metres.
@@ -75,14 +75,14 @@ impl Others {
         let is_look_alike =
             |plan: &BodyPlan| own.as_ref().is_some_and(|(kind, worn)| *kind == plan.kind && outfit(plan).is_like(worn));
         let bodies = around.bodies().filter(|(_, body)| is_sound && !body.states.is_empty());
-        let movers = bodies.map(|(number, body)| Mover::of(number, body, dt_s, is_look_alike(&body.plan)));
-        let movers: Vec<Mover> = movers.collect();
-        let last_s = movers.iter().map(|mover| mover.first_s + mover.states.len() as f64 * dt_s).fold(0.0, f64::max);
+        let bodies = bodies.map(|(number, body)| OtherBody::of(number, body, dt_s, is_look_alike(&body.plan)));
+        let bodies: Vec<_> = bodies.collect();
+        let last_s = bodies.iter().map(|body| body.first_s + body.states.len() as f64 * dt_s).fold(0.0, f64::max);
         let passing = |stretch: usize| {
-            (0..).zip(&movers).filter_map(|(number, mover)| mover.passing(number, stretch as f64 * STRETCH_S)).collect()
+            (0..).zip(&bodies).filter_map(|(number, body)| body.passing(number, stretch as f64 * STRETCH_S)).collect()
         };
         let stretches = (0..=(last_s / STRETCH_S) as usize).map(passing).collect();
-        Self { movers, stretches }
+        Self { bodies, stretches }
     }
 
     /// Everybody who may be there at a time, in the order of their numbers.
@@ -92,29 +92,29 @@ impl Others {
 
     /// Whether nobody else is about.
     pub fn is_empty(&self) -> bool {
-        self.movers.is_empty()
+        self.bodies.is_empty()
     }
 
     /// Everybody who comes near in the course of the episode.
-    pub fn movers(&self) -> &[Mover] {
-        &self.movers
+    pub fn bodies(&self) -> &[OtherBody] {
+        &self.bodies
     }
 
     /// Everybody who is there at a time, seconds from the beginning of the episode.
     pub fn at(&self, time_s: f64) -> impl Iterator<Item = BodyAtTime<'_>> {
-        self.movers.iter().filter_map(move |mover| mover.at(time_s))
+        self.bodies.iter().filter_map(move |body| body.at(time_s))
     }
 
     /// Everybody who is there at a time and may be taken for the target.
     pub fn look_alikes(&self, time_s: f64) -> impl Iterator<Item = BodyAtTime<'_>> {
         let passing = self.passing(time_s).iter().filter(|passing| passing.is_look_alike);
-        passing.filter_map(move |passing| self.movers[passing.mover].at(time_s))
+        passing.filter_map(move |passing| self.bodies[passing.body].at(time_s))
     }
 
     /// Marks those of the target's body points that a body hides from a camera. A body around the target's own middle hides nothing
     /// of it, as for the planner.
     pub fn hide(&self, time_s: f64, camera: DVec3, target: &TargetState, height_m: f64, hidden: &mut [bool]) {
-        if self.movers.is_empty() {
+        if self.bodies.is_empty() {
             return;
         }
         let (points, feet) = (body_points(target, height_m), target.feet_in_world);
@@ -131,11 +131,11 @@ impl Others {
             if is_far(share * across_m) {
                 continue;
             }
-            let mover = &self.movers[passing.mover];
-            let reach_m = share * across_m + mover.plan.radius_m() + height_m;
-            let near = mover.feet_at(time_s).filter(|own| (*own - feet).truncate().length() <= reach_m);
-            let Some(present) = near.and_then(|_| mover.at(time_s)) else { continue };
-            let shape = mover.plan.box_at(&present.state);
+            let body = &self.bodies[passing.body];
+            let reach_m = share * across_m + body.plan.radius_m() + height_m;
+            let near = body.feet_at(time_s).filter(|own| (*own - feet).truncate().length() <= reach_m);
+            let Some(present) = near.and_then(|_| body.at(time_s)) else { continue };
+            let shape = body.plan.box_at(&present.state);
             if contains(&shape, middle) {
                 continue;
             }
@@ -151,21 +151,21 @@ impl Others {
         let lowest_m = from.z.min(to.z) - within_m;
         let reach_m = from.distance(to) + within_m;
         let is_near = |passing: &&Passing| passing.top_m >= lowest_m && !passing.is_beyond(from, reach_m);
-        let clearance_m = |smallest, mover: &Mover| mover.clearance_m([from_s, to_s], [from, to], smallest);
+        let clearance_m = |smallest, body: &OtherBody| body.clearance_m([from_s, to_s], [from, to], smallest);
         if (from_s / STRETCH_S) as usize != (to_s / STRETCH_S) as usize {
-            let low_enough = self.movers.iter().filter(|mover| mover.top_m >= lowest_m);
+            let low_enough = self.bodies.iter().filter(|body| body.top_m >= lowest_m);
             return low_enough.fold(within_m, clearance_m);
         }
         let near = self.passing(from_s).iter().filter(is_near);
-        near.fold(within_m, |smallest, passing| clearance_m(smallest, &self.movers[passing.mover]))
+        near.fold(within_m, |smallest, passing| clearance_m(smallest, &self.bodies[passing.body]))
     }
 
     /// Boxes of those who are there at a time, as somebody supposes them who knows no more: `frames` of them, `dt_s` apart, each at
     /// the velocity of the moment.
     pub fn supposed(&self, time_s: f64, frames: usize, dt_s: f64) -> Vec<Vec<OrientedBox>> {
         let boxes = |present: BodyAtTime<'_>| {
-            let here = present.mover.plan.box_at(&present.state);
-            let velocity = present.mover.velocity(time_s);
+            let here = present.body.plan.box_at(&present.state);
+            let velocity = present.body.velocity(time_s);
             let at = |frame: usize| OrientedBox {
                 center_in_world: here.center_in_world + velocity * (frame as f64 * dt_s),
                 ..here
@@ -184,7 +184,7 @@ impl Passing {
     }
 }
 
-impl Mover {
+impl OtherBody {
     fn of(number: u32, body: &Body, dt_s: f64, is_look_alike: bool) -> Self {
         let highest_m = body.states.iter().map(|state| state.feet_in_world.z).fold(f64::NEG_INFINITY, f64::max);
         let step_m = |pair: &[TargetState]| (pair[1].feet_in_world - pair[0].feet_in_world).length();
@@ -205,8 +205,8 @@ impl Mover {
         }
     }
 
-    /// The body, number `mover` of all, in the stretch that begins at a time; `None` where it is absent.
-    fn passing(&self, mover: usize, begins_s: f64) -> Option<Passing> {
+    /// The body, number `body` of all, in the stretch that begins at a time; `None` where it is absent.
+    fn passing(&self, body: usize, begins_s: f64) -> Option<Passing> {
         let last = self.states.len() - 1;
         let [begins, ends] = [begins_s, begins_s + STRETCH_S].map(|time_s| (time_s - self.first_s) / self.dt_s);
         if ends < -1.0 || begins > last as f64 + 1.0 {
@@ -221,7 +221,7 @@ impl Mover {
             radius_m: 0.5 * (low.distance(high) + self.plan.size_m.truncate().length()),
             top_m: self.top_m,
             is_look_alike: self.is_look_alike,
-            mover,
+            body,
         })
     }
 
@@ -248,7 +248,7 @@ impl Mover {
         let step = self.step(time_s)?;
         let (first, next, share) = self.around(step);
         let covered_m = self.covered_m[first] + share * (self.covered_m[next] - self.covered_m[first]);
-        Some(BodyAtTime { mover: self, state: target_state_at(&self.states, step), covered_m })
+        Some(BodyAtTime { body: self, state: target_state_at(&self.states, step), covered_m })
     }
 
     /// Velocity at a time, m/s, world frame; zero beyond its ends.
@@ -312,7 +312,7 @@ mod tests {
         let followed = bodies[1].plan.clone();
         let traffic = Traffic { name: String::new(), dt_s: 0.5, frames: 60, bodies, notes: vec![] };
         let others = Others::new(&Around { numbers: (0..80).collect(), traffic }, Some(&followed));
-        let everybody = |mover| Passing { middle: DVec2::ZERO, radius_m: 1e9, top_m: 1e9, is_look_alike: true, mover };
+        let everybody = |body| Passing { middle: DVec2::ZERO, radius_m: 1e9, top_m: 1e9, is_look_alike: true, body };
         let all = Others { stretches: vec![(0..80).map(everybody).collect(); 8], ..others.clone() };
         let (mut hiding, mut near) = (0, 0);
         for round in 0..3000 {
@@ -330,7 +330,7 @@ mod tests {
             let [own, of_all] =
                 [&others, &all].map(|among| among.clearance_m([time_s, time_s + 0.1], [camera, way], 1.0));
             assert_eq!(own, of_all, "at {time_s}");
-            let alike = all.look_alikes(time_s).filter(|present| present.mover.is_look_alike).count();
+            let alike = all.look_alikes(time_s).filter(|present| present.body.is_look_alike).count();
             assert_eq!(others.look_alikes(time_s).count(), alike);
             (hiding, near) = (hiding + usize::from(hidden.contains(&true)), near + usize::from(own < 1.0));
         }

@@ -156,12 +156,12 @@ pub fn bystanders(environment: &Environment, rain: f64) -> impl Iterator<Item = 
 pub fn bystanders_at(episode: &Episode, time_s: f64, rain: f64) -> impl Iterator<Item = Bystander> {
     episode.others.at(time_s).map(move |present| Bystander {
         walker: walker(&present, rain),
-        instance: episode.place.instance(BodyId::of(0, present.mover.number as usize)),
+        instance: episode.place.instance(BodyId::of(0, present.body.number as usize)),
     })
 }
 
 /// Somebody who is there as they are drawn in a rain.
-fn walker(BodyAtTime { mover, state, covered_m }: &BodyAtTime<'_>, rain: f64) -> Walker {
-    let dry = Walker::of(&mover.plan, *state, *covered_m);
-    Walker { body: dry.body.in_rain(rain, &mover.plan.looks), ..dry }
+fn walker(BodyAtTime { body, state, covered_m }: &BodyAtTime<'_>, rain: f64) -> Walker {
+    let dry = Walker::of(&body.plan, *state, *covered_m);
+    Walker { body: dry.body.in_rain(rain, &body.plan.looks), ..dry }
 }

@@ -44,7 +44,7 @@ impl FlightSite {
         }
     }
 
-    /// These surroundings, whose pictures show a scan.
+    /// The surroundings, with pictures of a scan.
     #[must_use]
     pub fn with_scan(self, scan: SceneScan) -> Self {
         Self { scan, ..self }

@@ -55,7 +55,7 @@ fn bodies(episode: &Episode, time_s: f64) -> Vec<OrientedBox> {
         yaw_rad: state.heading_rad,
     };
     let target = episode.followed.as_ref().map_or_else(person, |plan| plan.box_at(&state));
-    let others = episode.others.at(time_s).map(|present| present.mover.plan.box_at(&present.state));
+    let others = episode.others.at(time_s).map(|present| present.body.plan.box_at(&present.state));
     // A target without extent is a point.
     others.chain((track.radius_m > 0.0).then_some(target)).collect()
 }

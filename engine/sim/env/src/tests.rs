@@ -280,7 +280,7 @@ fn a_followed_car_is_its_box_and_hides_nothing_of_itself() {
     for bodies in [vec![], vec![car.clone()]] {
         let others = Arc::new(Others::new(&around(bodies, 41), followed.as_ref()));
         let is_alone = others.is_empty();
-        assert!(others.movers().iter().all(|mover| mover.is_look_alike));
+        assert!(others.bodies().iter().all(|body| body.is_look_alike));
         let target = Arc::new(target.clone());
         let episode = Episode { target, followed: followed.clone(), others, ..(*base).clone() };
         assert_eq!(episode.visible(0.0, base.start.position_in_world, &car.states[0]), 1.0);
@@ -323,7 +323,7 @@ fn look_alikes_count_where_they_are_seen() {
     };
     let followed = Some(alike[0].plan.clone());
     let others = Arc::new(Others::new(&around(bodies, 41), followed.as_ref()));
-    assert_eq!(others.movers().iter().filter(|mover| mover.is_look_alike).count(), 4);
+    assert_eq!(others.bodies().iter().filter(|body| body.is_look_alike).count(), 4);
     let episode = Episode { others, followed, ..(*standing(vec![wall], 20)).clone() };
     assert_eq!(Environment::new(Arc::new(episode), EnvironmentSettings::default()).look_alikes(), 1);
 }

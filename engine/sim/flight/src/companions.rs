@@ -2,16 +2,16 @@
 
 use cosfly_frames::TargetTrack;
 
-/// A walk that may accompany another one: id and track.
-pub type Companion = (String, TargetTrack);
+/// Id and track of a walk.
+pub type NamedTrack = (String, TargetTrack);
 
 /// The `count` walks that stay nearest to `track` on average over its frames, nearest first; equally near ones by id.
-pub fn nearest(track: &TargetTrack, others: Vec<Companion>, count: usize) -> Vec<Companion> {
+pub fn nearest(track: &TargetTrack, others: Vec<NamedTrack>, count: usize) -> Vec<NamedTrack> {
     let distance = |other: &TargetTrack| {
         let pairs = track.states.iter().zip(&other.states);
         pairs.map(|(a, b)| a.feet_in_world.distance(b.feet_in_world)).sum::<f64>()
     };
-    let mut ranked: Vec<(f64, Companion)> = others.into_iter().map(|other| (distance(&other.1), other)).collect();
+    let mut ranked: Vec<(f64, NamedTrack)> = others.into_iter().map(|other| (distance(&other.1), other)).collect();
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then_with(|| a.1.0.cmp(&b.1.0)));
     ranked.into_iter().take(count).map(|(_, companion)| companion).collect()
 }

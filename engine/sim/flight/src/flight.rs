@@ -1,7 +1,7 @@
 //! One flight of an expert: its mission, its companions, and how it is planned, from its beginning or from any state.
 
 use crate::aim::take_aim;
-use crate::companions::Companion;
+use crate::companions::NamedTrack;
 use crate::plugins::{DrawnReference, FlightPlugins};
 use crate::world::World;
 use cosfly_domain::{ObstacleKind, OrientedBox, PlanOutcome, Trajectory};
@@ -22,13 +22,13 @@ use std::sync::{Arc, OnceLock};
 /// lie too far apart.
 const SHARED_GROUND_FRAMES: usize = 4096;
 
-/// Who moves around a flight. The walker's own body is in none of the lists beside it.
+/// Bodies that move around a flight. The walker's own body is in none of the lists beside it.
 #[derive(Clone, Debug, Default)]
 pub struct MovingBodies {
     /// Walk that is followed; `None` for objectives that follow nobody.
     pub walk: Option<TargetTrack>,
     /// Further walks to be seen.
-    pub companions: Vec<Companion>,
+    pub companions: Vec<NamedTrack>,
     /// Boxes of everybody else who matters, frame by frame of the walk, world frame: kept clear of and looked past. Between
     /// frames they move evenly and turn the shorter way.
     pub movers: Vec<Vec<OrientedBox>>,

@@ -18,7 +18,7 @@ pub mod losses;
 pub mod plugins;
 pub mod world;
 
-pub use companions::Companion;
+pub use companions::NamedTrack;
 pub use expert::Expert;
 pub use flight::{Flight, MovingBodies};
 pub use flown::Flown;

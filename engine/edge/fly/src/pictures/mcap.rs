@@ -99,7 +99,7 @@ fn step(task: &EpisodeTask, settings: &EnvironmentSettings, line: &LogLine) -> F
 }
 
 fn episode_boxes(task: &EpisodeTask, time_s: f64) -> Vec<OrientedBox> {
-    task.episode.others.at(time_s).map(|present| present.mover.plan.box_at(&present.state)).collect()
+    task.episode.others.at(time_s).map(|present| present.body.plan.box_at(&present.state)).collect()
 }
 
 fn sample(sensed: &Sensed) -> SensedSample {
