@@ -99,6 +99,37 @@ fn every_file_says_what_is_in_its_room_and_none_is_called_utils() {
     }
 }
 
+/// Folders of rooms whose documentation waits for a rewrite that has begun.
+const WAITING: [&str; 2] = ["engine/sim/materials", "engine/sim/render"];
+
+/// Columns, whose documentation is published with every dataset: other words are other bytes.
+const PUBLISHED: &str = "engine/data/schema/src/tables";
+
+#[test]
+fn documentation_begins_with_a_noun_not_with_a_pronoun() {
+    let root = repository_root();
+    let mut files = vec![];
+    rust_files(&root.join("engine"), &mut files);
+    let mut found = vec![];
+    for file in files {
+        let name = file.strip_prefix(&root).expect("below").display().to_string();
+        if name.contains("/tests/") || WAITING.iter().chain([&PUBLISHED]).any(|folder| name.starts_with(folder)) {
+            continue;
+        }
+        let text = std::fs::read_to_string(&file).expect("UTF-8");
+        let mut is_inside = false;
+        for (number, line) in text.lines().map(str::trim_start).enumerate() {
+            let said = line.strip_prefix("/// ").or_else(|| line.strip_prefix("//! "));
+            let first = said.filter(|_| !is_inside).and_then(|said| said.split([' ', ',']).next());
+            if first.is_some_and(|word| ["It", "They", "What", "There", "That", "These"].contains(&word)) {
+                found.push(format!("{name}:{}: {line}", number + 1));
+            }
+            is_inside = line.starts_with("///") || line.starts_with("//!");
+        }
+    }
+    assert!(found.is_empty(), "documentation names its thing first: {found:#?}");
+}
+
 #[test]
 fn no_room_knows_a_kind_of_stage_by_its_name() {
     let registry = cosfly_stages::registry();

@@ -27,7 +27,7 @@ impl Secrets {
         Self { values }
     }
 
-    /// These, and the values of the variables of an environment that are called like secrets: `AWS_SECRET_ACCESS_KEY`, `HF_TOKEN`.
+    /// Secrets of before, and the values of the variables of an environment that are called like secrets: `AWS_SECRET_ACCESS_KEY`, `HF_TOKEN`.
     pub fn with_environment(self, variables: impl IntoIterator<Item = (OsString, OsString)>) -> Self {
         let secret = |(name, value): (OsString, OsString)| {
             let (name, value) = (name.to_string_lossy().to_uppercase(), value.into_string().ok()?);

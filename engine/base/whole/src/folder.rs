@@ -27,7 +27,7 @@ pub struct NewFolder {
 /// Outcome for a folder that was made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Appeared {
-    /// It is at its place.
+    /// The folder is at its place.
     Here,
     /// Something else was there by then and stays; the folder is removed.
     Taken,

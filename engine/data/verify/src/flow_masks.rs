@@ -11,7 +11,7 @@ const INSIDE_PX: f64 = 0.01;
 /// A point is hidden where all depths about its place are less than this share of its own, and metres less.
 const HIDDEN: f64 = 0.9;
 const HIDDEN_M: f64 = 0.5;
-/// It is not hidden where the pixel at its place is at least this share of its own depth away.
+/// Share of a point's own depth: the point is not hidden where the pixel at its place is at least so far away.
 const FREE: f64 = 0.999;
 /// Points that may be wrong: a number, and a share, of those at edges.
 const ALLOWED: f64 = 3.0;

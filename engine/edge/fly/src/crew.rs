@@ -14,7 +14,7 @@ const PAUSE: Duration = Duration::from_millis(5);
 
 /// Outcome of an episode.
 pub enum EpisodeOutcome {
-    /// It is kept.
+    /// The episode is kept.
     Kept,
     /// The policy has not answered since the command began; why.
     Unanswered(String),

@@ -78,7 +78,7 @@ pub struct FlownEpisode {
 /// Time that a policy takes for an action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Latency {
-    /// That of the settings, in simulated time.
+    /// The latency of the settings, in simulated time.
     Simulated,
     /// Time of the clock; rows and logs differ from run to run.
     Measured,
@@ -86,7 +86,7 @@ pub enum Latency {
 
 /// Outcome of an episode.
 pub enum Attempt {
-    /// It was flown; the policy may have ended it by its fault.
+    /// The episode was flown; the policy may have ended it by its fault.
     Flown(Box<FlownEpisode>),
     /// The policy failed, and has given no right answer since the command began: it is not set up, and this is no episode. Why.
     Unanswered(String),

@@ -106,7 +106,7 @@ impl<'a> List<'a> {
         self.0.len()
     }
 
-    /// They themselves.
+    /// The numbers in order.
     pub fn numbers(&self) -> impl Iterator<Item = f64> + use<'a> {
         self.0.iter().map(|bytes| f64::from_le_bytes(*bytes))
     }

@@ -122,7 +122,7 @@ pub enum WhenSpent {
     /// Flights without all answers fail; a run with a larger budget goes on from there.
     #[default]
     Stop,
-    /// They have the templates' texts, marked; a larger budget asks for them.
+    /// Texts of the templates, marked; a larger budget asks for them.
     Template,
 }
 

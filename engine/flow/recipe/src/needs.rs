@@ -1,4 +1,4 @@
-//! What stages ask of those that they read: names of variants, numbers below those of others.
+//! Needs of stages towards those that they read: names of variants, numbers below those of others.
 
 use crate::document::list;
 use crate::model::{Connection, RecipeStage};

@@ -112,12 +112,12 @@ pub struct LeftOut {
 }
 
 impl Facts {
-    /// These facts with the target's clothes.
+    /// Facts with the target's clothes.
     pub fn wearing(self, wear: Option<Wear>) -> Self {
         Self { wear, ..self }
     }
 
-    /// These facts of a target of a kind.
+    /// Facts of a target of a kind.
     pub fn of_kind(self, kind: BodyKind) -> Self {
         Self { is_runner: kind == BodyKind::Runner, ..self }
     }

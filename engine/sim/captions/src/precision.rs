@@ -46,7 +46,7 @@ pub(crate) enum Pace {
     Whole,
     /// The pace is that of walking, without the stops.
     WhileWalking,
-    /// It agrees with neither, as the numbers are rounded.
+    /// The text agrees with neither, as the numbers are rounded.
     Unsaid,
 }
 

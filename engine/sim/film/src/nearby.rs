@@ -1,4 +1,4 @@
-//! Who is near a flight: the people and vehicles who may appear in its pictures, or throw a shadow into them.
+//! Bodies near a flight: the people and vehicles who may appear in its pictures, or throw a shadow into them.
 
 use crate::body_rays;
 use crate::rate::{FilmedFlight, Rate};
@@ -55,7 +55,7 @@ pub enum Origin {
 pub enum CandidateRefusal {
     /// The walk has no steps.
     NoSteps,
-    /// There is no instance id left.
+    /// No instance id is left.
     NoId,
 }
 

@@ -238,7 +238,7 @@ impl Cells {
         found.unwrap_or_default()
     }
 
-    /// What a look meets, by steps of a cell: distance and height of each cell.
+    /// Distance and height of each cell that a look meets, by steps of a cell.
     fn along(&self, from: DVec2, direction: DVec2) -> impl Iterator<Item = (f64, usize)> + '_ {
         let steps = (REACH_M / self.cell_m) as usize;
         let step = move |at: usize| at as f64 * self.cell_m;

@@ -60,7 +60,7 @@ pub enum PedestrianError {
     },
     /// The town lists no walkable ground at all.
     NoGround,
-    /// There is ground, but none of it is free of obstacles and wide enough for a cell.
+    /// No ground is free of obstacles and wide enough for a cell.
     NothingFree {
         /// Walkable polygons in the town.
         polygons: usize,

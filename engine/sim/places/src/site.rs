@@ -52,7 +52,7 @@ pub struct Site {
     pub ways: Vec<Way>,
     /// Land between and around the streets.
     pub faces: Vec<Face>,
-    /// What was put up so far.
+    /// Things that were put up so far.
     pub things: Vec<GeneratedThing>,
     edges: Vec<[DVec2; 2]>,
     taken: Vec<([DVec2; 2], Vec<DVec2>)>,

@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FacesAndPlates {
-    /// There were none: an empty place, a model made by hand.
+    /// No people or plates: an empty place, a model made by hand.
     None,
-    /// They were removed or made unreadable.
+    /// Faces and plates were removed or made unreadable.
     Removed,
     /// Some can be told: those who are shown have agreed, or the files stay with you.
     Readable,

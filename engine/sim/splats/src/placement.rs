@@ -60,7 +60,7 @@ pub struct SplatsProblem {
     pub key: &'static str,
     /// The refused value and the violated rule.
     pub message: String,
-    /// What is allowed.
+    /// Allowed values.
     pub hint: &'static str,
 }
 

@@ -11,7 +11,7 @@ const LONG_M: f64 = 6.5;
 /// Who waits longer than this keeps others from going before, seconds.
 const PATIENCE_S: f64 = 4.0;
 
-/// Who holds which lane.
+/// Holder of each lane.
 #[derive(Clone, Debug)]
 pub(crate) struct Junctions {
     /// Number of vehicles that hold each lane, and of long ones.

@@ -204,7 +204,7 @@ impl Population for Vehicles {
     }
 }
 
-/// Who drives a vehicle, and what is asked of them.
+/// Drivers of vehicles, and what is asked of them.
 fn driver_of<'a>(vehicle: &'a Vehicle, network: &'a Network, number: u32, headway_s: f64) -> Driver<'a> {
     Driver {
         network,

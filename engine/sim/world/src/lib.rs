@@ -1,4 +1,4 @@
-//! Who is where at time t: people and vehicles as bodies with tracks.
+//! People and vehicles at a time: bodies with tracks.
 //!
 //! [`cosfly_domain::Traffic`] holds all tracks of one town; planner, renderer, captions and tables read it. A [`Population`] is a group of
 //! bodies that move by one rule (a crowd, vehicles on lanes, recorded tracks); [`simulate`] steps several of them together:

@@ -1,4 +1,4 @@
-//! What is around a flight: bodies, crossings and the boxes of the town.
+//! Surroundings of a flight: bodies, crossings and the boxes of the town.
 
 use super::opened::Opened;
 use crate::subject::short;

@@ -1,4 +1,4 @@
-//! Who may ask: a browser of this machine that came with the token of the session once, and pages of the viewer itself.
+//! Admission: a browser of this machine that came with the token of the session once, and pages of the viewer itself.
 
 use super::request::Request;
 use super::response::Response;

@@ -120,7 +120,7 @@ impl Plugins {
         [""; 3]
     }
 
-    /// That an answer is wrong.
+    /// The fault of a wrong answer.
     pub fn wrong_answer(&self, message: String) -> Box<Diagnostic> {
         Diagnostic::new("plugin-failed", Fault::Input, message)
     }

@@ -26,7 +26,7 @@ pub enum Proof {
     Reflown(Vec<String>),
     /// The actions came to the same rows; the policy could not be run. Why, in words.
     NotRun(Vec<String>),
-    /// They came to other rows: the scores are a claim. Where they differ, in words.
+    /// Rows that came out otherwise: the scores are a claim. Where they differ, in words.
     Claimed(Vec<String>),
 }
 

@@ -98,7 +98,7 @@ fn shortened(words: &str) -> String {
 enum Rejection {
     /// Its files are at fault; in words.
     Entry(String),
-    /// It is not the entry's fault.
+    /// A fault of this machine, not of the entry.
     Machine(Box<Diagnostic>),
 }
 

@@ -58,7 +58,7 @@ pub struct PolicyMixture {
 
 /// Outcome of an episode.
 pub enum Attempt {
-    /// It was flown and labelled.
+    /// The episode was flown and labelled.
     Flown(Rollout),
     /// The policy failed, and has given no right answer since the command began: it is not set up. Why.
     Unanswered(String),

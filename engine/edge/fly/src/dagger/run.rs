@@ -29,7 +29,7 @@ pub struct Round<'a> {
     pub manners: &'a Manners,
     /// Settings of the environment.
     pub settings: EnvironmentSettings,
-    /// Who flies.
+    /// Pilot of the episode.
     pub mixture: PolicyMixture,
     /// Observations that are kept with every label.
     pub kept: KeptObservations,

@@ -7,9 +7,9 @@ use std::time::Duration;
 /// Why a policy gave no action.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Failure {
-    /// It answered wrongly or not in time: the episode ends and says so.
+    /// A wrong answer, or none in time: the episode ends and says so.
     Answer(String),
-    /// It is gone: the episode may be flown again.
+    /// The policy is gone: the episode may be flown again.
     Gone(String),
 }
 

@@ -173,7 +173,7 @@ struct Pair {
     least_m: f64,
 }
 
-/// Who walks with whom.
+/// Pairs of people who walk together.
 struct Company {
     /// Share of people in groups.
     in_groups: f64,

@@ -155,7 +155,7 @@ impl<'a> Course<'a> {
         moves
     }
 
-    /// That the target stands, or that it does not turn, where that is so beyond doubt all through the frames.
+    /// Words for a target that stands, or that does not turn, where that is so beyond doubt all through the frames.
     pub(super) fn quiet(&self, frames: &Range<usize>) -> Option<Said> {
         let stands = |frame: usize| self.flight.states[frame].speed_mps < STANDING_MPS;
         let mut turns = self.turns.sure.iter().chain(&self.turns.doubtful);

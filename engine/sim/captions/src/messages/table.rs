@@ -41,7 +41,7 @@ impl Messages {
         self.wordings.get(id).or_else(|| self.wordings.get(stem)).map_or(&[], Vec::as_slice)
     }
 
-    /// These texts of somebody who runs: words of walking become those of running.
+    /// Texts of somebody who runs: words of walking become those of running.
     pub fn of_runner(&self) -> Self {
         let pairs: Vec<(&str, &str)> = self.all("running-words").iter().filter_map(|it| it.split_once(" > ")).collect();
         let run = |text: &String| with_words(text, &pairs);

@@ -1,4 +1,4 @@
-//! What is seen on and through the sheet of a vehicle without being a shape: gaps of doors and lids, seats, dirt.
+//! Fittings on and behind the sheet of a vehicle that are no shapes: gaps of doors and lids, seats, dirt.
 
 use super::cars;
 use super::lorries::Load;

@@ -32,7 +32,7 @@ const CAB_SECTIONS: &[Section] = &[
     deck(0.5, 0.24, 0.25, [P, P, P]),
 ];
 
-/// What a lorry carries its load in.
+/// Body of a lorry that carries its load.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Load {
     Box,
@@ -41,7 +41,7 @@ pub(super) enum Load {
 }
 
 impl Load {
-    /// That of a lorry: most have boxes.
+    /// The body of a lorry by chance: most have boxes.
     pub fn draw(looks: &mut RandomStream) -> Self {
         match looks.index(10) {
             0..=5 => Self::Box,

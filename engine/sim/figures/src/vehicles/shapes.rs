@@ -56,7 +56,7 @@ pub(super) struct Shape {
     pub sections: &'static [Section],
 }
 
-/// What buses, coaches and the cabs of lorries have in common: a length and a height of any size, cladding, no rails.
+/// Shape that buses, coaches and the cabs of lorries begin with: a length and a height of any size, cladding, no rails.
 pub(super) const LARGE: Shape = Shape {
     share: 1.0,
     lengths_m: [0.0, 99.0],

@@ -1,4 +1,4 @@
-//! What people take along: wheelchairs with their users, push-chairs, dogs on a leash.
+//! Things that people take along: wheelchairs with their users, push-chairs, dogs on a leash.
 
 use super::model::Model;
 use super::riders::{SEATED_M, Seat, seated};

@@ -15,7 +15,7 @@ const OPENINGS: usize = 5;
 /// middle the hub stands.
 const PLATE: [(f64, Region); 3] = [(0.56, Region::Metal), (0.46, Region::Trim), (0.26, Region::Metal)];
 
-/// What is seen within a tyre.
+/// Middle of a wheel, within its tyre.
 #[derive(Clone, Copy)]
 pub(super) enum Rim {
     /// A rim with openings, at this turn, radians.

@@ -49,7 +49,7 @@ pub struct MeshConfig {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MeshLight {
-    /// That in its colours, as it was scanned.
+    /// The scan in its colours, as it was scanned.
     #[default]
     Scan,
     /// Sun, sky and shadows of the picture's weather: its colours are those of an even light, as of modelled cities and of scans whose
@@ -71,7 +71,7 @@ pub struct MeshProblem {
     pub key: &'static str,
     /// The refused value and the violated rule.
     pub message: String,
-    /// What is allowed.
+    /// Allowed values.
     pub hint: &'static str,
 }
 

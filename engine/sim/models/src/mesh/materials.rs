@@ -26,7 +26,7 @@ pub struct NamedMaterial {
 pub struct Placing {
     /// Factors of the places, across and up.
     pub scale: [f32; 2],
-    /// What is added to them then.
+    /// Numbers that are added to them then.
     pub shift: [f32; 2],
     /// Whether the edge goes on beyond the picture.
     pub is_clamped: bool,

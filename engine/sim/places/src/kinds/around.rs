@@ -1,4 +1,4 @@
-//! What lies around a place, so that it does not end in a lawn: fields, woods, further houses.
+//! Surroundings of a place, so that it does not end in a lawn: fields, woods, further houses.
 
 use super::houses::scatter;
 use crate::geometry::{disc, edges, inset, rectangle};
@@ -12,7 +12,7 @@ const REACH_M: f64 = 110.0;
 /// Trees that are tried in a copse.
 const COPSE: usize = 16;
 
-/// What lies around a place.
+/// Surroundings of a place.
 #[derive(Clone, Copy, Debug)]
 pub struct Around {
     /// Ploughed fields.

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 pub struct PlaceKind {
     /// Its name in files and commands.
     pub name: &'static str,
-    /// What it is, in a line.
+    /// Description, in a line.
     pub doc: &'static str,
     /// The numbers that it takes.
     pub keys: &'static [Key],
@@ -23,7 +23,7 @@ pub struct PlaceKind {
 pub struct Key {
     /// Its name.
     pub name: &'static str,
-    /// What it is, in a line, with its unit.
+    /// Description, in a line, with its unit.
     pub doc: &'static str,
     /// Smallest and largest value.
     pub range: [f64; 2],
@@ -45,9 +45,9 @@ impl PlaceSettings {
 /// A refused number, with what is allowed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RefusedSetting {
-    /// What is wrong.
+    /// Fault, in words.
     pub message: String,
-    /// What is allowed.
+    /// Allowed values.
     pub hint: String,
 }
 

@@ -14,7 +14,7 @@ const LAMPS_M: f64 = 27.0;
 /// Trees stand on pavements of at least this width, metres.
 const WITH_TREES_M: f64 = 2.6;
 
-/// What stands on the pavements.
+/// Things on the pavements.
 pub struct Furniture {
     /// Share of the street sides that are lined with trees.
     pub tree_share: f64,

@@ -54,7 +54,7 @@ struct Profile {
     reach: f32,
     /// Something may come near it: grown most it does not stay below all nodes.
     closes: bool,
-    /// It hides what is behind it.
+    /// Whether the box hides what is behind it.
     hides: bool,
 }
 

@@ -44,7 +44,7 @@ impl<'a> NearBoxes<'a> {
         Some(Self { obstacles, influence_m, level: level(), bodies, frames: Vec::new() })
     }
 
-    /// These boxes, queried with the vector instructions of `level`.
+    /// The boxes, queried with the vector instructions of `level`.
     pub fn at_level(self, level: Level) -> Self {
         Self { level, ..self }
     }

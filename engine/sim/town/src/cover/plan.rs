@@ -57,7 +57,7 @@ impl CoverPlan {
         Some(Self { rings, outer_count, middle, moved_m, angles_rad, extent_m: (high - low).max_element() })
     }
 
-    /// These rings, to be covered in these directions only.
+    /// The rings, to be covered in these directions only.
     #[must_use]
     pub fn along(mut self, angles_rad: &[f64]) -> Self {
         self.angles_rad = angles_rad.to_vec();

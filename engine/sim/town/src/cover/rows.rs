@@ -171,7 +171,7 @@ impl Rows {
         rows
     }
 
-    /// These rows with levels where sides cross, so that [`Self::trapezoids`] are exact there, too; `None` where there are
+    /// The rows with levels where sides cross, so that [`Self::trapezoids`] are exact there, too; `None` where there are
     /// too many sides to look at all pairs.
     pub(super) fn with_levels_at_crossings(mut self) -> Option<Self> {
         let mut pairs = 0;

@@ -51,17 +51,17 @@ pub(super) fn body(language: InstructionLanguage, kind: &str, instance: u32) -> 
     }
 }
 
-/// What a frame shows of its target.
+/// Sight of the target in a frame.
 pub(super) struct Shown<'a> {
     /// Visible pixels of the target.
     pub(super) pixels: u32,
     /// Share of the target that is hidden, percent.
     pub(super) hidden_percent: f64,
-    /// What hides most of it, in words; nothing where nothing does.
+    /// Name of the body or thing that hides most of the target, in words; nothing where nothing does.
     pub(super) hidden_by: Option<String>,
     /// The loss as the line has it, or null.
     pub(super) loss: &'a Value,
-    /// What hides the target in most frames of the loss, in words.
+    /// Name of the body or thing that hides the target in most frames of the loss, in words.
     pub(super) cause: String,
 }
 

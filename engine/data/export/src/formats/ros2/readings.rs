@@ -53,7 +53,7 @@ pub struct ReadingCoder<'a> {
 }
 
 impl<'a> ReadingCoder<'a> {
-    /// That of a sensor.
+    /// The layout of a sensor's readings.
     pub fn of(sensor: &'a LoggedSensor) -> Self {
         let place = |name: &&str| sensor.quantities.iter().position(|it| it == name);
         let places = |names: &[&str]| names.iter().map(place).collect::<Option<Vec<usize>>>();
