@@ -31,7 +31,7 @@ pub use action_number::ActionNumber;
 pub use environment::{Environment, Step};
 pub use episode::{Episode, Start};
 pub use observation::{FEATURES, Observation, TargetSighting};
-pub use others::{BodyAtTime, OtherBody, Others};
+pub use others::{BodyAtTime, EpisodeBody, Others};
 pub use place::FlightSite;
 pub use policies::Policy;
 pub use readings::readings;

@@ -18,7 +18,7 @@ const SLACK_M: f64 = 0.05;
 /// Bodies that move around the target.
 #[derive(Clone, Debug, Default)]
 pub struct Others {
-    bodies: Vec<OtherBody>,
+    bodies: Vec<EpisodeBody>,
     /// Numbers of those who are there in each stretch of [`STRETCH_S`]; the first begins before all time, after the last one nobody is there.
     stretches: Vec<Vec<Passing>>,
 }
@@ -38,7 +38,7 @@ struct Passing {
 
 /// A person or vehicle beside the target.
 #[derive(Clone, Debug)]
-pub struct OtherBody {
+pub struct EpisodeBody {
     /// Number of the body in the traffic of its town.
     pub number: u32,
     /// Kind, size and looks.
@@ -58,7 +58,7 @@ pub struct OtherBody {
 #[derive(Clone, Copy, Debug)]
 pub struct BodyAtTime<'a> {
     /// The body.
-    pub body: &'a OtherBody,
+    pub body: &'a EpisodeBody,
     /// Place, heading, speed.
     pub state: TargetState,
     /// Distance covered since its first state, metres.
@@ -75,7 +75,7 @@ impl Others {
         let is_look_alike =
             |plan: &BodyPlan| own.as_ref().is_some_and(|(kind, worn)| *kind == plan.kind && outfit(plan).is_like(worn));
         let bodies = around.bodies().filter(|(_, body)| is_sound && !body.states.is_empty());
-        let bodies = bodies.map(|(number, body)| OtherBody::of(number, body, dt_s, is_look_alike(&body.plan)));
+        let bodies = bodies.map(|(number, body)| EpisodeBody::of(number, body, dt_s, is_look_alike(&body.plan)));
         let bodies: Vec<_> = bodies.collect();
         let last_s = bodies.iter().map(|body| body.first_s + body.states.len() as f64 * dt_s).fold(0.0, f64::max);
         let passing = |stretch: usize| {
@@ -96,7 +96,7 @@ impl Others {
     }
 
     /// Everybody who comes near in the course of the episode.
-    pub fn bodies(&self) -> &[OtherBody] {
+    pub fn bodies(&self) -> &[EpisodeBody] {
         &self.bodies
     }
 
@@ -151,7 +151,7 @@ impl Others {
         let lowest_m = from.z.min(to.z) - within_m;
         let reach_m = from.distance(to) + within_m;
         let is_near = |passing: &&Passing| passing.top_m >= lowest_m && !passing.is_beyond(from, reach_m);
-        let clearance_m = |smallest, body: &OtherBody| body.clearance_m([from_s, to_s], [from, to], smallest);
+        let clearance_m = |smallest, body: &EpisodeBody| body.clearance_m([from_s, to_s], [from, to], smallest);
         if (from_s / STRETCH_S) as usize != (to_s / STRETCH_S) as usize {
             let low_enough = self.bodies.iter().filter(|body| body.top_m >= lowest_m);
             return low_enough.fold(within_m, clearance_m);
@@ -184,7 +184,7 @@ impl Passing {
     }
 }
 
-impl OtherBody {
+impl EpisodeBody {
     fn of(number: u32, body: &Body, dt_s: f64, is_look_alike: bool) -> Self {
         let highest_m = body.states.iter().map(|state| state.feet_in_world.z).fold(f64::NEG_INFINITY, f64::max);
         let step_m = |pair: &[TargetState]| (pair[1].feet_in_world - pair[0].feet_in_world).length();
