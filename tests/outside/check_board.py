@@ -8,8 +8,7 @@ import json
 import shutil
 import subprocess
 
-from playwright.sync_api import sync_playwright
-from shared import chromium_of, command_line, end_with, faults_of_page, watch
+from shared import command_line, end_with, in_windows
 
 HOSTILE = "<img src=x onerror=\\\"document.title='owned'\\\"></td></table><script>document.title='owned'</script>\\u202e&amp;"
 arguments = command_line("cosfly entries suite work")
@@ -26,28 +25,17 @@ assert subprocess.run(command, stdout=subprocess.PIPE, check=False).returncode =
 files = [it["file"] for suite in board["suites"] for it in suite["ranked"] + suite["knows_world"]]
 assert first in files and len(files) == len(list(entries.glob("*.zst"))) - 1, files
 
-with sync_playwright() as playwright:
-    browser = chromium_of(playwright)
-    for width in (1280, 400):
-        for scheme in ("light", "dark"):
-            name = f"{width} px, {scheme}"
-            context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme, offline=True)
-            page = context.new_page()
-            watch(page, name, problems, page_file.as_uri())
-            page.goto(page_file.as_uri())
-            problems.extend(faults_of_page(page, name))
-            if page.title() != "Leaderboard" or page.locator("script, img[onerror]").count():
-                problems.append(f"{name}: words of an entry are no text")
-            lines = page.locator("tbody tr").count()
-            if lines < 2 * len(files):  # scores, groups of episodes
-                problems.append(f"{name}: {lines} lines for {len(files)} entries")
-            if page.locator("svg").count() < len(files) or page.get_by_text("core-s an episode").count() == 0:
-                problems.append(f"{name}: a drawing or a column is missing")
-            links = page.eval_on_selector_all("td a, th a", "all => all.map(it => [it.href, it.getAttributeNames().join()])")
-            if len(links) != 1 or "onmouseover" in links[0][1] or not links[0][0].startswith("https://example.org/?a="):
-                problems.append(f"{name}: links are {links}")
-            context.close()
-    browser.close()
+for name, page in in_windows(page_file.as_uri(), problems, offline=True):
+    if page.title() != "Leaderboard" or page.locator("script, img[onerror]").count():
+        problems.append(f"{name}: words of an entry are no text")
+    lines = page.locator("tbody tr").count()
+    if lines < 2 * len(files):  # scores, groups of episodes
+        problems.append(f"{name}: {lines} lines for {len(files)} entries")
+    if page.locator("svg").count() < len(files) or page.get_by_text("core-s an episode").count() == 0:
+        problems.append(f"{name}: a drawing or a column is missing")
+    links = page.eval_on_selector_all("td a, th a", "all => all.map(it => [it.href, it.getAttributeNames().join()])")
+    if len(links) != 1 or "onmouseover" in links[0][1] or not links[0][0].startswith("https://example.org/?a="):
+        problems.append(f"{name}: links are {links}")
 
 print(f"page of {page_file.stat().st_size} bytes: {len(files)} entries, {len(board['refused'])} refused")
 end_with(problems)

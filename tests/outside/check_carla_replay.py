@@ -13,7 +13,7 @@ import carla
 import numpy as np
 from mcap.reader import make_reader
 from scipy.spatial.transform import Rotation
-from shared import messages, module, picture, pixels, require, run, said
+from shared import messages, module, picture, pixels, require, run, said, xyz
 
 WALKER = 4242  # the raw instance id of the walker
 
@@ -24,10 +24,6 @@ def read_log(path):
     for topic, message, time, schema in messages(path):
         log[topic].append((time, message, schema))
     return dict(log)
-
-
-def numbers(vector):
-    return np.array([vector.x, vector.y, vector.z])
 
 
 def rotated(q, v):
@@ -45,11 +41,11 @@ class Transforms:
             place, axis, frame = np.zeros(3), np.array([0.0, 0.0, 1.0]), "camera_optical"
             while frame != "map":
                 t = by_child[frame]
-                place, axis, frame = numbers(t.translation) + rotated(t.rotation, place), rotated(t.rotation, axis), t.parent_frame_id
+                place, axis, frame = xyz(t.translation) + rotated(t.rotation, place), rotated(t.rotation, axis), t.parent_frame_id
             flip = np.array([1.0, -1.0, 1.0])
             self.camera.append(place * flip + offset)
             self.ahead.append(axis * flip)
-            self.feet.append(numbers(by_child["target"].translation) * flip + offset)
+            self.feet.append(xyz(by_child["target"].translation) * flip + offset)
 
 
 class StandIn:
@@ -103,10 +99,10 @@ class StandIn:
         self.frame += 1
         self.ticks += 1
         for sensor in self.sensors:
-            distances = [np.abs(numbers(sensor.transform.location) - camera).max() for camera in self.transforms.camera]
+            distances = [np.abs(xyz(sensor.transform.location) - camera).max() for camera in self.transforms.camera]
             number = int(np.argmin(distances))
             require(distances[number] < 2e-3, f"the camera is {distances[number]} m from every frame")
-            turned = np.abs(numbers(sensor.transform.get_forward_vector()) - self.transforms.ahead[number]).max()
+            turned = np.abs(xyz(sensor.transform.get_forward_vector()) - self.transforms.ahead[number]).max()
             require(turned < 1e-4, f"the camera of frame {number} is turned by {turned}")
             sensor.callback(self.picture(sensor, number))
         return self.frame
@@ -205,7 +201,7 @@ def check_walker(world, flight, transforms):
     walker = world.walker
     require(len(walker.places) == len(flight["frames"]), "one place per frame")
     for place, control, feet, frame in zip(walker.places, walker.controls, transforms.feet, flight["frames"]):
-        found = numbers(place.location) - [0, 0, 0.93]
+        found = xyz(place.location) - [0, 0, 0.93]
         require(np.abs(found - feet).max() < 2e-3, f"the walker stands at {found}, not {feet}")
         require(abs(control.speed - frame["target"][4]) < 1e-5, "its speed")
         ahead = place.get_forward_vector()

@@ -9,7 +9,7 @@ from drone_models.core import load_params
 from drone_models.first_principles import dynamics
 from scipy.signal import welch
 from scipy.spatial.transform import Rotation
-from shared import run
+from shared import allan, run
 
 
 def numbers_of(*arguments, **options):
@@ -82,17 +82,9 @@ for axis, name in enumerate(["along", "across", "upwards"]):
 # The inertial unit: Allan deviation falls with the root of time by the noise's density, and rises by that of the walk.
 rate = 200.0
 samples = numbers_of("inertial", rate, 4_000_000)
-
-
-def allan(values, seconds):
-    size = int(seconds * rate)
-    means = values[: len(values) // size * size].reshape(-1, size).mean(axis=1)
-    return np.sqrt(0.5 * np.mean(np.diff(means) ** 2))
-
-
 for first, name, noise, walk, times in [(0, "gyroscope", 1.6968e-4, 1.9393e-5, (0.1, 1.0)), (3, "accelerometer", 2.0e-3, 3.0e-3, (0.02, 0.1))]:
     for seconds, most in [*((it, 0.05) for it in times), (300.0, 0.3)]:
         wanted = np.sqrt(noise**2 / seconds + walk**2 * seconds / 3)
-        found = np.sqrt(np.mean([allan(samples[:, first + axis], seconds) ** 2 for axis in range(3)]))
+        found = np.sqrt(np.mean(allan(samples[:, first : first + 3], 1 / rate, seconds)))
         print(f"{name}: Allan deviation at {seconds} s {found:.3e}, by its densities {wanted:.3e}")
         assert abs(found / wanted - 1) < most

@@ -106,10 +106,9 @@ def check_frames(topics, steps):
     """Frames of camera and commands by the angles of the steps, computed anew; motion, inertial unit and receiver by the places of the frames."""
     import numpy as np
     from scipy.spatial.transform import Rotation
-    from shared import world_from_body
+    from shared import world_from_body, xyz
 
     mirror = np.diag([1.0, -1, 1])
-    xyz = lambda it: np.array([it.x, it.y, it.z])
     turn = lambda q: Rotation.from_quat([q.x, q.y, q.z, q.w])
     bodies = [turn(message.pose.pose.orientation) for _, message in topics["/odom"]]
     for step, body, (_, odometry), (_, tf) in zip(steps, bodies, topics["/odom"], topics["/tf"], strict=True):

@@ -6,11 +6,10 @@ and the truth is the pose of the frames.
 Usage: `check_inertial.py DATASET`."""
 
 import sys
-from pathlib import Path
 
 import numpy as np
-import pyarrow.parquet as parquet
 from scipy.spatial.transform import Rotation
+from shared import readings
 
 OUTAGE_S, AIDED_S, BOUND_M, BOUND_OF_AIDED_M = 60.0, 30.0, 100.0, 15.0
 GRAVITY = np.array([0, 0, -9.81])
@@ -18,11 +17,6 @@ MIRROR = np.array([1.0, -1, 1])
 PLACE, VELOCITY = ["east_m", "north_m", "up_m"], ["velocity_east_mps", "velocity_north_mps", "velocity_up_mps"]
 # Densities of noise and of the walks that the biases are taken for, deviations at the beginning: gyroscope, accelerometer.
 NOISE, WALK, FIRST = np.array([1.92e-4, 1.83e-3]), np.array([6e-6, 2e-4]), np.array([9e-4, 2e-2])
-
-
-def table(name):
-    frame = parquet.read_table(Path(sys.argv[1]) / "data" / name).to_pandas()
-    return {flight: rows.sort_values(["frame", "row"] if "row" in rows else "frame") for flight, rows in frame.groupby("trajectory_id")}
 
 
 def cross(v):
@@ -110,7 +104,7 @@ def errors(flight, unit, receiver, barometer, magnetometer, frames):
     return np.array(found), ends_s
 
 
-tables = [table(name) for name in ("inertial_unit", "satellite_receiver", "barometer", "magnetometer", "frames")]
+tables = [readings(sys.argv[1], name) for name in ("inertial_unit", "satellite_receiver", "barometer", "magnetometer", "frames")]
 checked = 0
 for flight in sorted(tables[0]):
     rows = [of_flight[flight] for of_flight in tables]

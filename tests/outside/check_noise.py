@@ -8,14 +8,13 @@ and angle, and echoes that distance and rain leave. `--plant` spoils the reading
 from pathlib import Path
 
 import numpy as np
-import pyarrow.parquet as parquet
-from shared import Town, command_line, end_with, require, rows, said
+from scipy.spatial.transform import Rotation
+from shared import POINT, Town, allan, command_line, end_with, readings, require, rows, said
 
 # Cards: white noise, unit per root hertz; deviation of the wandering bias, of 300 s.
 CARDS = {"rate": (1.92e-4, 7.03e-5), "force": (1.83e-3, 2.45e-3)}
 UNITS = {"rate": "rad_s", "force": "mps2"}
 TIME_S = 300.0
-POINT = np.dtype([("place", "<f4", 3), ("intensity", "<f4"), ("time", "<f4"), ("ring", "<u2"), ("label", "<u2"), ("instance", "<u4")])
 # Reflectivities of the page on lidars by CARLA's label: roads, pavements, buildings, walls, leaves, cars.
 REFLECTED = {1: 0.15, 2: 0.3, 3: 0.4, 4: 0.4, 9: 0.5, 14: 0.5}
 RANGE_M, STATED, PRECIPITATION = 100.0, 0.8, {"dry": 0.0, "rain": 100.0}
@@ -27,18 +26,6 @@ def hold(name, is_so, detail):
     said(name, detail)
     if not is_so:
         wrong.append(f"{name}: {detail}")
-
-
-def readings(folder, name):
-    frame = parquet.read_table(Path(folder) / "data" / name).to_pandas()
-    return {flight: rows_ for flight, rows_ in frame.groupby("trajectory_id")}
-
-
-def allan(errors, step_s, tau_s):
-    """Overlapping Allan variance of each column, from sums of readings."""
-    n = max(round(tau_s / step_s), 1)
-    sums = np.concatenate([np.zeros((1, errors.shape[1])), np.cumsum(errors, 0)]) * step_s
-    return np.mean((sums[2 * n:] - 2 * sums[n:-n] + sums[:-2 * n]) ** 2, 0) / (2 * (n * step_s) ** 2)
 
 
 def expected_variance(card, tau_s):
@@ -96,10 +83,9 @@ def magnetometer(folder, flights):
     for flight, frame in readings(folder, "magnetometer").items():
         latitude = np.radians(degrees(flights[flight])[0])
         unit = inertial_rows[flight]
-        x, y, z, w = unit[["true_qx", "true_qy", "true_qz", "true_qw"]].to_numpy()[np.searchsorted(unit.time_s, frame.time_s - 1e-6)].T
+        turns = unit[["true_qx", "true_qy", "true_qz", "true_qw"]].to_numpy()[np.searchsorted(unit.time_s, frame.time_s - 1e-6)]
         # Rows of the matrix that turns vectors of the sensor into the world: y to the south, z up.
-        south = np.stack([2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)], -1)
-        up = np.stack([2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)], -1)
+        _, south, up = np.moveaxis(Rotation.from_quat(turns).as_matrix(), 1, 0)
         field = 31.2 * (-np.cos(latitude) * south - 2 * np.sin(latitude) * up) * (1.02 if given.plant == "field" else 1)
         names = [f"field_{axis}_ut" for axis in "xyz"]
         off = np.abs(field - frame[[f"true_{it}" for it in names]].to_numpy()).max()
@@ -133,15 +119,9 @@ def sky(latitude_deg, longitude_deg, day_s):
 def hidden(town, eye, rays):
     """Whether each ray meets a box: every ray against every box."""
     which = np.flatnonzero(np.linalg.norm(town.center[:, :2] - eye[:2], axis=1) - town.reach < 2000)
-    begin = town.own(which, eye - town.center[which])
-    found = np.zeros(len(rays), bool)
-    for number, ray in enumerate(rays):
-        along = town.own(which, np.broadcast_to(ray, begin.shape))
-        with np.errstate(divide="ignore", invalid="ignore"):
-            ends = np.sort(np.stack([(-town.half[which] - begin) / along, (town.half[which] - begin) / along]), 0)
-        near, far = ends[0].max(1), ends[1].min(1)
-        found[number] = ((near <= far) & (far > 0) & (near < 2000)).any()
-    return found
+    near, leaves, _ = town.span(which, eye, rays[:, None])
+    enters = near.max(-1)
+    return ((enters <= leaves) & (leaves > 0) & (enters < 2000)).any(-1)
 
 
 def view(town, eye, rays):
@@ -204,22 +184,16 @@ def intensities(folder):
     compared, off = 0, []
     for (flight, _), (row, points) in list(swept(folder).items())[:6]:
         town = towns[flights[flight]["town"]]
-        x, y, z, w = (row[f"true_q{axis}"] for axis in "xyzw")
-        turn = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                         [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                         [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+        turn = Rotation.from_quat([row[f"true_q{axis}"] for axis in "xyzw"]).as_matrix()
         early = points[(points["time"] < 0.02) & np.isin(points["label"], [3, 4])]
         range_m = np.linalg.norm(early["place"], axis=1)
         rays = (early["place"] / range_m[:, None]) @ turn.T
         eye = np.array([row[f"true_{axis}_m"] for axis in "xyz"])
         for point, ray, far in zip(early, rays, range_m):
             which = np.flatnonzero(town.instance == point["instance"])
-            begin, along = town.own(which, eye - town.center[which]), town.own(which, np.broadcast_to(ray, (len(which), 3)))
-            with np.errstate(divide="ignore", invalid="ignore"):
-                enters = np.minimum((-town.half[which] - begin) / along, (town.half[which] - begin) / along)
-                leaves = np.maximum((-town.half[which] - begin) / along, (town.half[which] - begin) / along)
+            enters, leaves, along = town.span(which, eye, ray)
             near = enters.max(1)
-            hit = np.flatnonzero((near <= leaves.min(1)) & (np.abs(near - far) < 0.5))
+            hit = np.flatnonzero((near <= leaves) & (np.abs(near - far) < 0.5))
             if len(hit):
                 cosines = np.abs(along[hit, enters[hit].argmax(1)]) * (1.1 if given.plant == "angle" else 1)
                 off.append(np.abs(REFLECTED[point["label"]] * cosines - point["intensity"]).min())

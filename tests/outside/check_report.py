@@ -5,11 +5,8 @@ or one on the PATH."""
 
 from pathlib import Path
 
-from playwright.sync_api import sync_playwright
-from shared import chromium_of, command_line, end_with, faults_of_page, watch
+from shared import command_line, end_with, in_windows
 
-WIDTHS = (1280, 400)
-SCHEMES = ("light", "dark")
 PARTS = {  # what the page has, and at least how often
     "landmarks": ("header, nav, main, footer", 4), "sections": ("main > section", 8), "maps and charts": ("svg[role=img][aria-label]", 10),
     "pictures": ("img[alt]", 2), "tiles of the statistics table": (".tile", 8), "planners": ("#planners .wide tbody >> nth=0 >> tr", 5),
@@ -17,7 +14,6 @@ PARTS = {  # what the page has, and at least how often
 
 arguments = command_line("dataset", screenshots=Path)
 page_file = (arguments.dataset / "report" / "index.html").resolve()
-address = page_file.as_uri()
 problems = []
 
 
@@ -31,22 +27,12 @@ def contents(page):
     return counts
 
 
-with sync_playwright() as playwright:
-    browser = chromium_of(playwright)
-    for width in WIDTHS:
-        for scheme in SCHEMES:
-            name = f"{width} px, {scheme}"
-            page = browser.new_page(viewport={"width": width, "height": 900}, color_scheme=scheme)
-            watch(page, name, problems, address)
-            page.goto(address)
-            if arguments.screenshots:
-                arguments.screenshots.mkdir(parents=True, exist_ok=True)
-                page.screenshot(path=arguments.screenshots / f"report-{width}-{scheme}.png", full_page=True)
-            counts = contents(page)
-            problems.extend(faults_of_page(page, name))
-            broken = page.evaluate("[...document.images].filter(it => !it.complete || it.naturalWidth == 0).length")
-            problems += [f"{name}: {broken} pictures are broken"] * (broken > 0)
-    browser.close()
+for name, page in in_windows(page_file.as_uri(), problems):
+    if arguments.screenshots:
+        page.screenshot(path=arguments.screenshots / f"report-{name.replace(' px, ', '-')}.png", full_page=True)
+    counts = contents(page)
+    broken = page.evaluate("[...document.images].filter(it => !it.complete || it.naturalWidth == 0).length")
+    problems += [f"{name}: {broken} pictures are broken"] * (broken > 0)
 
 print(f"report of {page_file.stat().st_size} bytes: " + ", ".join(f"{count} {name}" for name, count in counts.items()))
 end_with(problems)

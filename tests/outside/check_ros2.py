@@ -14,14 +14,13 @@ from mcap_ros2.reader import read_ros2_messages
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 from scipy.spatial.transform import Rotation
-from shared import axes_of, flown, imported_by_rerun, place, rows
+from shared import POINT, axes_of, flown, imported_by_rerun, place, rows, xyz
 
 dataset, export = Path(sys.argv[1]), Path(sys.argv[2])
 MIRROR = np.diag([1.0, -1.0, 1.0])
 # Columns: right, down and ahead of a camera whose axes are x ahead, y right, z up.
 OPTICAL = np.array([[0.0, 0, 1], [1, 0, 0], [0, -1, 0]])
 LATCHED = {"/tf_static", "/town", "/instruction"}
-POINT = [("place", "<f4", 3), ("intensity", "<f4"), ("time", "<f4"), ("ring", "<u2"), ("label", "<u2"), ("instance", "<u4")]
 flights, frames, people = flown(dataset)
 # Readings by table and flight: tables with a time that is not that of a frame.
 sensors, readings = {}, []
@@ -44,10 +43,6 @@ def matrix(q):
 def turn(vector):
     """The rotation by a vector's length around it."""
     return Rotation.from_rotvec(vector).as_matrix()
-
-
-def xyz(message):
-    return np.array([message.x, message.y, message.z])
 
 
 def nanoseconds(stamp):

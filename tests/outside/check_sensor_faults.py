@@ -9,16 +9,13 @@ import json
 import os
 import re
 import shutil
-import struct
 import subprocess
 from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as parquet
-from shared import command_line, end_with, messages, pixels, require, rows, run, said
-
-POINT = np.dtype([("place", "<f4", 3), ("intensity", "<f4"), ("time", "<f4"), ("ring", "<u2"), ("label", "<u2"), ("instance", "<u4")])
+from shared import POINT, command_line, end_with, messages, pixels, require, rows, run, said
 
 
 def digest(path):

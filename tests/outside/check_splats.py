@@ -13,6 +13,7 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 from shared import command_line, require, run, said
 
 LEAST_DB, LEAST_ALPHA, MOST_ALPHA, LOW_PASS, NEAR = 50, 1 / 255, 0.99, 0.3, 0.2
@@ -94,10 +95,7 @@ def picture(splats, start, towards, size, fov_deg, is_antialiased):
     focal = width / 2 / np.tan(np.radians(fov_deg) / 2)
     away = middles - start
     seen = away @ camera.T
-    w, x, y, z = (turns / np.linalg.norm(turns, axis=1, keepdims=True)).T
-    turn = np.stack([1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y), 2 * (x * y + w * z), 1 - 2 * (x * x + z * z),
-                     2 * (y * z - w * x), 2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)], 1).reshape(-1, 3, 3)  # fmt: skip
-    half = camera @ turn * np.exp(spreads)[:, None, :]
+    half = camera @ Rotation.from_quat(turns[:, [1, 2, 3, 0]]).as_matrix() * np.exp(spreads)[:, None, :]
     covariances = half @ half.transpose(0, 2, 1)
     depth = seen[:, 2]
     with np.errstate(divide="ignore", invalid="ignore"):

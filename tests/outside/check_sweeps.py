@@ -5,10 +5,9 @@ from pathlib import Path
 
 import laspy
 import numpy as np
-from shared import rows
+from shared import POINT, rows
 
 dataset, table, export = Path(sys.argv[1]), sys.argv[2], Path(sys.argv[3])
-POINT = [("place", "<f4", 3), ("intensity", "<f4"), ("time", "<f4"), ("ring", "<u2"), ("label", "<u2"), ("instance", "<u4")]
 count = 0
 for row in rows(dataset, table):
     (path,) = export.glob(f"**/{row['trajectory_id']}/**/las/{row['row']:06}.las")

@@ -32,10 +32,8 @@ def first_hit(town, start, end):
     """The first box between two points, and where; none where the way is free."""
     middle, length = (start + end) / 2, np.linalg.norm(end - start)
     which = np.flatnonzero(np.hypot(*(town.center[:, :2] - middle[:2]).T) < town.reach + length / 2)
-    begin, step = town.own(which, start - town.center[which]), town.own(which, np.broadcast_to(end - start, (len(which), 3)))
-    step = np.where(np.abs(step) < 1e-12, 1e-12, step)
-    near, far = np.sort([(-town.half[which] - begin) / step, (town.half[which] - begin) / step], axis=0)
-    enters, leaves = near.max(-1), far.min(-1)
+    near, leaves, _ = town.span(which, start, end - start)
+    enters = near.max(-1)
     hit = np.where((enters <= leaves) & (leaves >= 0) & (enters <= 1), np.maximum(enters, 0), np.inf)
     if not len(which) or not np.isfinite(hit.min()):
         return None

@@ -15,6 +15,8 @@ import numpy as np
 COLOURS = "black grey white red orange yellow green blue purple pink brown beige".split()
 IN_CHINESE = dict(zip(COLOURS, "黑色 灰色 白色 红色 橙色 黄色 绿色 蓝色 紫色 粉色 棕色 米色".split()))
 # Kinds of a number and numbers of a pixel.
+# A point of a sweep in column `cloud`.
+POINT = np.dtype([("place", "<f4", 3), ("intensity", "<f4"), ("time", "<f4"), ("ring", "<u2"), ("label", "<u2"), ("instance", "<u4")])
 ENCODINGS = {"mono8": ("u1", 1), "rgb8": ("u1", 3), "16UC1": ("<u2", 1), "32UC1": ("<u4", 1), "32FC1": ("<f4", 1), "32FC2": ("<f4", 2)}
 
 
@@ -110,6 +112,21 @@ def rows(folder, table, columns=None):
     return found.to_table(columns or [name for name in found.schema.names if name != "preview"]).to_pylist()
 
 
+def readings(folder, name):
+    """Rows of a table of a sensor, or of frames, by flight, in order, as tables of pandas."""
+    import pyarrow.parquet
+
+    frame = pyarrow.parquet.read_table(Path(folder) / "data" / name).to_pandas()
+    return {flight: own.sort_values([it for it in ("frame", "row") if it in own]) for flight, own in frame.groupby("trajectory_id")}
+
+
+def allan(errors, step_s, tau_s):
+    """Overlapping Allan variance of each column, from sums of readings."""
+    n = max(round(tau_s / step_s), 1)
+    sums = np.concatenate([np.zeros((1, errors.shape[1])), np.cumsum(errors, 0)]) * step_s
+    return np.mean((sums[2 * n:] - 2 * sums[n:-n] + sums[:-2 * n]) ** 2, 0) / (2 * (n * step_s) ** 2)
+
+
 def flown(folder, of_frames=None, of_bodies=None):
     """Flights by id, their frames by id and number, and the bodies that a frame shows by id and number; columns as in `rows`."""
     flights = {row["trajectory_id"]: row for row in rows(folder, "trajectories")}
@@ -150,6 +167,10 @@ def picture(message):
 def turned(to, of):
     """Difference of angles, degrees, -180 to 180."""
     return (to - of + 180) % 360 - 180
+
+
+def xyz(message):
+    return np.array([message.x, message.y, message.z])
 
 
 def place(row, of):
@@ -199,7 +220,14 @@ class Town:
         """Vectors along the axes of boxes."""
         cos, sin = self.cos[which], self.sin[which]
         x, y, z = np.moveaxis(vectors, -1, 0)
-        return np.stack([cos * x + sin * y, cos * y - sin * x, z], -1)
+        return np.stack([cos * x + sin * y, cos * y - sin * x, z + 0 * cos], -1)
+
+    def span(self, which, start, way):
+        """How many ways from a start a ray enters each box by each axis (it is in by the last of them) and leaves it, and the way along the axes of each."""
+        begin, step = self.own(which, start - self.center[which]), self.own(which, way)
+        step = np.where(np.abs(step) < 1e-12, 1e-12, step)
+        near, far = np.sort([(-self.half[which] - begin) / step, (self.half[which] - begin) / step], axis=0)
+        return near, far.min(-1), step
 
     def nearest(self, kind, feet, heading, reach_m):
         """Boxes of a kind, and the ways along the ground from the feet to their footprints: ahead and to the right of a heading, radians."""
@@ -258,6 +286,23 @@ def chromium_of(playwright):
 
     found = filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome")))
     return playwright.chromium.launch(executable_path=next(found, None), args=["--no-sandbox", "--enable-unsafe-swiftshader"])
+
+
+def in_windows(address, problems, **options):
+    """Names of windows and a page in each: wide and narrow, light and dark; notes what must hold in every window."""
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        browser = chromium_of(playwright)
+        for width, scheme in [(width, scheme) for width in (1280, 400) for scheme in ("light", "dark")]:
+            name = f"{width} px, {scheme}"
+            page = browser.new_page(viewport={"width": width, "height": 900}, color_scheme=scheme, **options)
+            watch(page, name, problems, address)
+            page.goto(address)
+            yield name, page
+            problems.extend(faults_of_page(page, name))
+            page.close()
+        browser.close()
 
 
 def watch(page, name, problems, own, is_fault=lambda it: True):
