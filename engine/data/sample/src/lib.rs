@@ -9,5 +9,5 @@ mod town;
 
 pub use flight::{FRAMES, SampleFlight, flight, flight_filmed_by, flights, raise_drawn_ground, rejections};
 pub use folder::{write_flights, write_to_folder};
-pub use many::{ManyFlights, write_many};
+pub use many::ManyFlights;
 pub use town::town;

@@ -7,7 +7,6 @@ mod fleet;
 mod flights;
 mod flights_stages;
 mod flights_steps;
-mod geometry;
 mod ground;
 mod lidar;
 mod look;
@@ -26,7 +25,7 @@ mod vehicles;
 use clap::{Parser, Subcommand};
 use outcome::Outcome;
 
-/// Measurements of cosfly and of other libraries
+/// Measurements of cosfly
 #[derive(Debug, Parser)]
 #[command(name = "cosfly-lab", version, about, max_term_width = 100)]
 pub struct Arguments {
@@ -49,9 +48,6 @@ enum Command {
     Flights(flights::FlightsArguments),
     /// Many trajectories on many workers, simulated: operations of the store, waiting, crashes
     Fleet(fleet::FleetArguments),
-    /// Box queries per second on one core: cosfly's tree, the trees of parry and obvhs, and a brute-force loop
-    #[command(after_help = geometry::EXAMPLES)]
-    Geometry(geometry::GeometryArguments),
     /// Lidars: beams a second of a core by device, over a town
     #[command(after_help = lidar::EXAMPLES)]
     Lidar(lidar::LidarArguments),
@@ -95,7 +91,6 @@ impl Arguments {
             Command::Engine(arguments) => engine::engine(arguments),
             Command::Flights(arguments) => flights::flights(arguments),
             Command::Fleet(arguments) => fleet::fleet(arguments),
-            Command::Geometry(arguments) => geometry::geometry(arguments),
             Command::Lidar(arguments) => lidar::lidar(arguments),
             Command::Look(arguments) => look::look(arguments),
             Command::People(arguments) => people::people(arguments),

@@ -42,7 +42,7 @@ struct ToyStage {
 /// # Errors
 /// None, as the sample is sound.
 pub fn registry() -> Result<Registry> {
-    let samples = Arc::new(ManyFlights::new(usize::MAX)?);
+    let samples = Arc::new(ManyFlights::default());
     let toy = |name, makes| -> Box<dyn StageKind> { Box::new(Toy { name, makes, samples: Arc::clone(&samples) }) };
     let toys = vec![
         toy("toy_town", Makes::Town),

@@ -1,6 +1,6 @@
 //! `look`: statistics of pictures beside those of real ones.
 
-use super::outcome::{Outcome, print};
+use super::outcome::{Outcome, print_report};
 use clap::Args;
 use cosfly_domain::Season;
 use cosfly_lab::look::{LookReport, of_folder, of_town};
@@ -70,6 +70,5 @@ pub fn look(arguments: &LookArguments) -> Outcome {
         rows.push(of_folder(folder).map_err(|refusal| vec![refusal])?);
     }
     let report = LookReport { rows };
-    let json = || serde_json::to_string_pretty(&report).unwrap_or_default() + "\n";
-    print(&if arguments.json { json() } else { report.to_string() })
+    print_report(&report, arguments.json)
 }

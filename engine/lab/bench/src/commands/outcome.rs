@@ -2,6 +2,8 @@
 
 use clap::builder::TypedValueParser;
 use cosfly_diagnose::Diagnostic;
+use serde::Serialize;
+use std::fmt::Display;
 use std::io::{ErrorKind, Write};
 
 /// Errors in a measurement's parameters, at least one.
@@ -19,6 +21,16 @@ pub fn print(text: &str) -> Outcome {
         }
         Ok(()) | Err(_) => Ok(()),
     }
+}
+
+/// A report as JSON.
+pub fn json(report: &impl Serialize) -> String {
+    serde_json::to_string_pretty(report).unwrap_or_default() + "\n"
+}
+
+/// Prints a report, as JSON or in words.
+pub fn print_report<R: Serialize + Display>(report: &R, is_json: bool) -> Outcome {
+    print(&if is_json { json(report) } else { report.to_string() })
 }
 
 /// Parser of a count from 1 to a million.

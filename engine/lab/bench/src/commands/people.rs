@@ -1,6 +1,6 @@
 //! `people`: simulated people beside recorded ones.
 
-use super::outcome::{Outcome, Refusals, print};
+use super::outcome::{Outcome, Refusals, print_report};
 use clap::Args;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_frames::Seed;
@@ -64,8 +64,7 @@ pub fn people(arguments: &PeopleArguments) -> Outcome {
     sets.push(Figures::of(&tracks));
     let density = if arguments.without_density { vec![] } else { density(arguments.seed).map_err(refused)? };
     let table = PeopleTable { sets, crowds: vec![crowd], density };
-    let as_json = || serde_json::to_string_pretty(&table).unwrap_or_default() + "\n";
-    print(&if arguments.json { as_json() } else { table.to_string() })
+    print_report(&table, arguments.json)
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Refusals> {

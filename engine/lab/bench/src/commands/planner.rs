@@ -1,6 +1,6 @@
 //! `planner`: cosfly's planner, the paper's, and the baselines on the same paths.
 
-use super::outcome::{Outcome, Refusals, print};
+use super::outcome::{Outcome, Refusals, json, print};
 use super::town_of_recipe;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
@@ -187,12 +187,6 @@ fn contenders(arguments: &PlannerArguments) -> Vec<Contender> {
     }
     let named = |who: &Contender| arguments.planners.iter().any(|name| name == who.name());
     Contender::nameable().into_iter().filter(named).collect()
-}
-
-fn json(value: &impl serde::Serialize) -> String {
-    let mut text = serde_json::to_string_pretty(value).unwrap_or_default();
-    text.push('\n');
-    text
 }
 
 /// Progress bar on a terminal, hidden otherwise.

@@ -1,6 +1,6 @@
 //! `render`: cost of pictures by stage, and throughput of finished logs.
 
-use super::outcome::{Outcome, Refusals, print};
+use super::outcome::{Outcome, Refusals, print, print_report};
 use clap::Args;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_domain::{Camera, Weather};
@@ -81,8 +81,7 @@ pub fn render(arguments: &RenderArguments) -> Outcome {
         scratch: scratch.path(),
     })
     .map_err(|refusal| vec![refusal])?;
-    let json = || serde_json::to_string_pretty(&report).unwrap_or_default() + "\n";
-    print(&if arguments.json { json() } else { report.to_string() })
+    print_report(&report, arguments.json)
 }
 
 fn camera(arguments: &RenderArguments) -> Result<Camera, Refusals> {

@@ -1,6 +1,6 @@
 //! `simplify`: boxes for planning by tolerance, of a generated town or of a map file.
 
-use super::outcome::{Outcome, print};
+use super::outcome::{Outcome, print_report};
 use clap::Args;
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_domain::OrientedBox;
@@ -38,8 +38,7 @@ pub fn simplify(arguments: &SimplifyArguments) -> Outcome {
         .map_or_else(|| Ok(fine_boxes(arguments.seed)), boxes_of_map)
         .map_err(|error| vec![error])?;
     let table = simplify_table(&boxes);
-    let as_json = || serde_json::to_string_pretty(&table).unwrap_or_default() + "\n";
-    print(&if arguments.json { as_json() } else { table.to_string() })
+    print_report(&table, arguments.json)
 }
 
 fn boxes_of_map(path: &PathBuf) -> Result<Vec<OrientedBox>> {

@@ -1,6 +1,6 @@
 //! `small`: cost of small pictures beside the large renderer.
 
-use super::outcome::{Outcome, print};
+use super::outcome::{Outcome, print_report};
 use clap::Args;
 use cosfly_domain::Camera;
 use cosfly_lab::small::{SmallOptions, measure};
@@ -52,6 +52,5 @@ pub fn small(arguments: &SmallArguments) -> Outcome {
         rounds: arguments.rounds,
         has_colours: arguments.colours,
     });
-    let json = || serde_json::to_string_pretty(&report).unwrap_or_default() + "\n";
-    print(&if arguments.json { json() } else { report.to_string() })
+    print_report(&report, arguments.json)
 }

@@ -1,6 +1,6 @@
 //! `steady`: pixels that pop in clips of a slowly moving camera.
 
-use super::outcome::{Outcome, print};
+use super::outcome::{Outcome, print_report};
 use clap::Args;
 use cosfly_domain::{Camera, Season};
 use cosfly_frames::Pose;
@@ -63,6 +63,5 @@ pub fn steady(arguments: &SteadyArguments) -> Outcome {
         rows.extend(of_clips(&ground.name, &ground.scene, (camera, PictureLook::Full), &weather, &starts, clip));
     }
     let report = SteadyReport { rows };
-    let json = || serde_json::to_string_pretty(&report).unwrap_or_default() + "\n";
-    print(&if arguments.json { json() } else { report.to_string() })
+    print_report(&report, arguments.json)
 }

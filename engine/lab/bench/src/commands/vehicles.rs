@@ -1,6 +1,6 @@
 //! `vehicles`: how simulated vehicles drive.
 
-use super::outcome::{Outcome, Refusals, print};
+use super::outcome::{Outcome, Refusals, print_report};
 use clap::Args;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_domain::Town;
@@ -47,8 +47,7 @@ pub fn vehicles(arguments: &VehiclesArguments) -> Outcome {
     let town = town_of(&arguments.town, arguments.seed)?;
     let driving = driving(&town, arguments.count, (arguments.frames, arguments.frame_s), arguments.seed)
         .map_err(|error| refused("bench-vehicles", error))?;
-    let as_json = || serde_json::to_string_pretty(&driving).unwrap_or_default() + "\n";
-    print(&if arguments.json { as_json() } else { driving.to_string() })
+    print_report(&driving, arguments.json)
 }
 
 /// The town of a map file, called like the file.
