@@ -2,12 +2,11 @@
 //! asked for.
 
 use super::dataset::PublishedDataset;
-use super::row_index::RowIndex;
+use super::kept_rows::KeptRows;
 use super::rows::Rows;
 use cosfly_diagnose::Result;
 use cosfly_frames::DVec3;
 use cosfly_schema::tables::Bodies3d;
-use std::collections::BTreeMap;
 
 /// A row of table `bodies_3d`. World frame: CARLA's, metres.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,10 +73,7 @@ impl SpaceRow {
 }
 
 /// Reads the rows of table `bodies_3d` trajectory by trajectory.
-pub struct SpaceReader {
-    index: RowIndex,
-    known: BTreeMap<usize, Vec<SpaceRow>>,
-}
+pub struct SpaceReader(KeptRows<SpaceRow>);
 
 impl SpaceReader {
     /// A reader of the table, which datasets from before it do not have.
@@ -85,7 +81,7 @@ impl SpaceReader {
     /// # Errors
     /// Damage of the table.
     pub fn of(dataset: &PublishedDataset) -> Result<Self> {
-        Ok(Self { index: dataset.row_index("bodies_3d")?, known: BTreeMap::new() })
+        Ok(Self(KeptRows::of(dataset, "bodies_3d")?))
     }
 
     /// Rows of the trajectory at a place in [`PublishedDataset::flights`] of the same dataset, by frame and id.
@@ -93,21 +89,7 @@ impl SpaceReader {
     /// # Errors
     /// Damage of the table.
     pub fn at(&mut self, dataset: &PublishedDataset, place: usize) -> Result<&[SpaceRow]> {
-        if !self.known.contains_key(&place) && self.index.has(place) {
-            self.known = BTreeMap::new();
-            let wanted = self.index.beside(place);
-            let known = &mut self.known;
-            self.index.visit(&wanted, &mut |rows, _| {
-                let ids = rows.values(Bodies3d::trajectory_id)?;
-                for row in 0..rows.len() {
-                    if let Some(place) = dataset.place(ids.text(row)).filter(|it| wanted.contains(it)) {
-                        known.entry(place).or_default().push(SpaceRow::read(rows, row)?);
-                    }
-                }
-                Ok(())
-            })?;
-            known.values_mut().for_each(|rows| rows.sort_by_key(|row| (row.frame, row.instance)));
-        }
-        Ok(self.known.get(&place).map_or(&[], Vec::as_slice))
+        let read = |rows: &Rows<'_>, row: usize| SpaceRow::read(rows, row).map(Some);
+        self.0.at(dataset, place, Bodies3d::trajectory_id, read, |row| (row.frame, row.instance))
     }
 }

@@ -34,6 +34,7 @@ mod image_log;
 mod in_space;
 mod inner_path;
 mod instructions;
+mod kept_rows;
 mod log;
 mod objects;
 mod parquet_metadata;

@@ -2,11 +2,11 @@
 //! are asked for.
 
 use super::dataset::PublishedDataset;
-use super::row_index::RowIndex;
+use super::kept_rows::KeptRows;
+use super::rows::Rows;
 use cosfly_diagnose::Result;
 use cosfly_frames::DVec3;
 use cosfly_schema::tables::{Bodies, Edges};
-use std::collections::BTreeMap;
 
 /// A body that a frame shows: a row of table `bodies`.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,10 +26,7 @@ pub struct SeenBody {
 }
 
 /// Reads visible bodies trajectory by trajectory.
-pub struct SightingReader {
-    index: RowIndex,
-    known: BTreeMap<usize, Vec<SeenBody>>,
-}
+pub struct SightingReader(KeptRows<SeenBody>);
 
 impl SightingReader {
     /// A reader of table `bodies`.
@@ -37,7 +34,7 @@ impl SightingReader {
     /// # Errors
     /// Damage of the table.
     pub fn of(dataset: &PublishedDataset) -> Result<Self> {
-        Ok(Self { index: dataset.row_index("bodies")?, known: BTreeMap::new() })
+        Ok(Self(KeptRows::of(dataset, "bodies")?))
     }
 
     /// Bodies of the trajectory at a place in [`PublishedDataset::flights`] of the same dataset, by frame and id.
@@ -45,34 +42,20 @@ impl SightingReader {
     /// # Errors
     /// Damage of the table.
     pub fn at(&mut self, dataset: &PublishedDataset, place: usize) -> Result<&[SeenBody]> {
-        if !self.known.contains_key(&place) && self.index.has(place) {
-            self.known = BTreeMap::new();
-            let wanted = self.index.beside(place);
-            let known = &mut self.known;
-            self.index.visit(&wanted, &mut |rows, _| {
-                let (ids, frames) = (rows.values(Bodies::trajectory_id)?, rows.values(Bodies::frame)?);
-                let (instances, boxes) = (rows.values(Bodies::instance)?, rows.values(Bodies::visible_box_px)?);
-                for row in 0..rows.len() {
-                    let Some(place) = dataset.place(ids.text(row)).filter(|it| wanted.contains(it)) else {
-                        continue;
-                    };
-                    // A row without a box or an id is of a hidden body.
-                    let seen = (instances.at(row)?, boxes.at(row)?);
-                    let (Some(instance), Some(visible_box_px)) = seen else { continue };
-                    let [.., height_m] = rows.get(Bodies::size_m, row)?;
-                    known.entry(place).or_default().push(SeenBody {
-                        frame: frames.at(row)?,
-                        instance,
-                        kind: rows.get(Bodies::kind, row)?,
-                        feet_in_world: DVec3::from_array(rows.get(Bodies::feet_in_world_m, row)?),
-                        height_m,
-                        visible_box_px,
-                    });
-                }
-                Ok(())
-            })?;
-            known.values_mut().for_each(|bodies| bodies.sort_by_key(|body| (body.frame, body.instance)));
-        }
-        Ok(self.known.get(&place).map_or(&[], Vec::as_slice))
+        let read = |rows: &Rows<'_>, row: usize| {
+            // A row without a box or an id is of a hidden body.
+            let seen = (rows.get(Bodies::instance, row)?, rows.get(Bodies::visible_box_px, row)?);
+            let (Some(instance), Some(visible_box_px)) = seen else { return Ok(None) };
+            let [.., height_m] = rows.get(Bodies::size_m, row)?;
+            Ok(Some(SeenBody {
+                frame: rows.get(Bodies::frame, row)?,
+                instance,
+                kind: rows.get(Bodies::kind, row)?,
+                feet_in_world: DVec3::from_array(rows.get(Bodies::feet_in_world_m, row)?),
+                height_m,
+                visible_box_px,
+            }))
+        };
+        self.0.at(dataset, place, Bodies::trajectory_id, read, |body| (body.frame, body.instance))
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::flights::Flights;
 use crate::report::VerifyReport;
-use crate::rows::{self, ReadResult};
+use crate::rows::ReadResult;
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, Int64Type};
 use cosfly_diagnose::counted;
@@ -13,7 +13,7 @@ use cosfly_read::{LogReader, LoggedSweep};
 use cosfly_schema::extras::is_taken;
 use cosfly_schema::log::cloud::{COLUMN, CloudPoint, POINT_BYTES, POSE};
 use cosfly_schema::log::reading::TOPICS;
-use cosfly_schema::tables::{self, Objects, kind_name};
+use cosfly_schema::tables::{Objects, kind_name};
 use cosfly_sensors::SmoothFlight;
 use cosfly_sensors::lidar::reflectivity;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
@@ -141,27 +141,17 @@ pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
 fn boxes_of_towns(flights: &Flights<'_>) -> BTreeMap<String, Boxes> {
     let mut found: BTreeMap<String, Vec<(u32, Filled, OrientedBox)>> = BTreeMap::new();
     let mut labels: BTreeMap<String, BTreeMap<u32, Vec<u8>>> = BTreeMap::new();
-    for file in flights.files.sound_below("data/objects/") {
-        let _ = rows::read(&flights.folder.join(file), &tables::of_objects(), &mut |rows| {
-            for row in 0..rows.len() {
-                let list = found.entry(rows.get(Objects::town, row)?).or_default();
-                let shape = OrientedBox {
-                    center_in_world: DVec3::from_array(rows.get(Objects::center_in_world_m, row)?),
-                    half_extents_m: 0.5 * DVec3::from_array(rows.get(Objects::size_m, row)?),
-                    yaw_rad: rows.get(Objects::yaw_deg, row)?.to_radians(),
-                };
-                let (label, instance) = (rows.get(Objects::label, row)?, rows.get(Objects::instance, row)?);
-                let own: &mut Vec<u8> =
-                    labels.entry(rows.get(Objects::town, row)?).or_default().entry(instance).or_default();
-                own.push(label.id());
-                if label != SemanticLabel::Car {
-                    let filled = Filled::of(label, &rows.get(Objects::kind, row)?);
-                    list.push((instance, filled, shape));
-                }
-            }
-            Ok(())
-        });
-    }
+    flights.each_box(&mut |rows, row, town, shape| {
+        let (label, instance) = (rows.get(Objects::label, row)?, rows.get(Objects::instance, row)?);
+        let own: &mut Vec<u8> = labels.entry(town.clone()).or_default().entry(instance).or_default();
+        own.push(label.id());
+        let list = found.entry(town).or_default();
+        if label != SemanticLabel::Car {
+            let filled = Filled::of(label, &rows.get(Objects::kind, row)?);
+            list.push((instance, filled, shape));
+        }
+        Ok(())
+    });
     let boxes = |(town, list): (String, Vec<(u32, Filled, OrientedBox)>)| {
         let labels = labels.remove(&town).unwrap_or_default();
         (town, Boxes { labels, ..Boxes::new(&list) })

@@ -12,7 +12,10 @@ use super::resume::ResumeFile;
 use super::rows::{self, PlacedFlight, PlacedFrame};
 use super::tables::SmallTables;
 use cosfly_diagnose::Result;
-use cosfly_read::{FlightTrack, RowIndex};
+use cosfly_domain::OrientedBox;
+use cosfly_frames::DVec3;
+use cosfly_read::{FlightTrack, RowIndex, Rows as TableRows};
+use cosfly_schema::tables::{self, Objects};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -45,6 +48,24 @@ pub struct Flights<'a> {
     index: RowIndex,
     bodies: BodiesIndex,
     in_space: BodiesIndex,
+}
+
+impl Flights<'_> {
+    /// Gives each box of table `objects` with its town; damage of the table is reported elsewhere.
+    pub fn each_box(&self, each: &mut dyn FnMut(&TableRows<'_>, usize, String, OrientedBox) -> Result<()>) {
+        for file in self.files.sound_below("data/objects/") {
+            let _ = rows::read(&self.folder.join(file), &tables::of_objects(), &mut |rows| {
+                (0..rows.len()).try_for_each(|row| {
+                    let shape = OrientedBox {
+                        center_in_world: DVec3::from_array(rows.get(Objects::center_in_world_m, row)?),
+                        half_extents_m: 0.5 * DVec3::from_array(rows.get(Objects::size_m, row)?),
+                        yaw_rad: rows.get(Objects::yaw_deg, row)?.to_radians(),
+                    };
+                    each(rows, row, rows.get(Objects::town, row)?, shape)
+                })
+            });
+        }
+    }
 }
 
 /// A flight that was checked.

@@ -3,7 +3,7 @@
 use crate::flights::Flights;
 use crate::readings::{self, Carrying, LONGEST_ARM_M};
 use crate::report::VerifyReport;
-use crate::rows::{self, PlacedFlight};
+use crate::rows::PlacedFlight;
 use crate::sensed_rows::SensedRows;
 use arrow_array::cast::AsArray;
 use arrow_schema::ArrowError;
@@ -14,7 +14,6 @@ use cosfly_geometry::BoxBvh;
 use cosfly_read::LogReader;
 use cosfly_schema::extras::is_taken;
 use cosfly_schema::log::reading::{LoggedSensor, TOPICS, TRUE};
-use cosfly_schema::tables::{self, Objects};
 use parquet::arrow::ProjectionMask;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use std::collections::BTreeMap;
@@ -129,18 +128,10 @@ fn seen_ground(flight: &PlacedFlight, log: &mut LogReader) -> Vec<DVec3> {
 /// All boxes of each town; damage of the table is reported elsewhere.
 fn boxes_of_towns(flights: &Flights<'_>) -> BTreeMap<String, BoxBvh> {
     let mut found: BTreeMap<String, Vec<OrientedBox>> = BTreeMap::new();
-    for file in flights.files.sound_below("data/objects/") {
-        let _ = rows::read(&flights.folder.join(file), &tables::of_objects(), &mut |rows| {
-            for row in 0..rows.len() {
-                found.entry(rows.get(Objects::town, row)?).or_default().push(OrientedBox {
-                    center_in_world: DVec3::from_array(rows.get(Objects::center_in_world_m, row)?),
-                    half_extents_m: 0.5 * DVec3::from_array(rows.get(Objects::size_m, row)?),
-                    yaw_rad: rows.get(Objects::yaw_deg, row)?.to_radians(),
-                });
-            }
-            Ok(())
-        });
-    }
+    flights.each_box(&mut |_, _, town, shape| {
+        found.entry(town).or_default().push(shape);
+        Ok(())
+    });
     found.into_iter().map(|(town, list)| (town, BoxBvh::build(list))).collect()
 }
 
