@@ -1,5 +1,6 @@
 //! Track of the target: one state per frame at a fixed time step.
 
+use crate::real;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -12,6 +13,18 @@ pub struct TargetState {
     pub heading_rad: f64,
     /// Speed along the ground, m/s; 0 while standing.
     pub speed_mps: f64,
+}
+
+impl TargetState {
+    /// The state a share of the way to another one; the heading turns the shorter way.
+    pub fn toward(&self, to: &Self, share: f64) -> Self {
+        let turn = real::wrap_angle_rad(to.heading_rad - self.heading_rad);
+        Self {
+            feet_in_world: self.feet_in_world.lerp(to.feet_in_world, share),
+            heading_rad: real::wrap_angle_rad(self.heading_rad + share * turn),
+            speed_mps: self.speed_mps + share * (to.speed_mps - self.speed_mps),
+        }
+    }
 }
 
 /// A target's states at a fixed time step; frame `i` is at `i * dt_s`.

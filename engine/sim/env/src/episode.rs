@@ -3,7 +3,7 @@
 use crate::others::Others;
 use crate::place::FlightSite;
 use cosfly_domain::{BodyPlan, Weather};
-use cosfly_frames::{DVec3, Pose, Seed, TargetState, TargetTrack, real};
+use cosfly_frames::{DVec3, Pose, Seed, TargetState, TargetTrack};
 use cosfly_geometry::SpatialQuery;
 use cosfly_surroundings::moving::Encounter;
 use cosfly_surroundings::visibility::{BODY_POINTS, aim_point, body_points};
@@ -57,13 +57,7 @@ impl Episode {
         };
         let place = (time_s / self.target.dt_s).clamp(0.0, last as f64);
         let (frame, share) = (place as usize, place.fract());
-        let (from, to) = (&states[frame], &states[(frame + 1).min(last)]);
-        let turn = real::wrap_angle_rad(to.heading_rad - from.heading_rad);
-        TargetState {
-            feet_in_world: from.feet_in_world.lerp(to.feet_in_world, share),
-            heading_rad: real::wrap_angle_rad(from.heading_rad + share * turn),
-            speed_mps: from.speed_mps + share * (to.speed_mps - from.speed_mps),
-        }
+        states[frame].toward(&states[(frame + 1).min(last)], share)
     }
 
     /// Velocity of the target at a time, m/s, world frame.

@@ -2,7 +2,7 @@
 
 use crate::{Population, Snapshot};
 use cosfly_domain::{Body, BodyPlan};
-use cosfly_frames::{TargetState, real};
+use cosfly_frames::TargetState;
 
 /// Bodies whose states at all frames are known; between frames they go on evenly.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -40,7 +40,7 @@ impl Population for Prescribed {
         let from = *body.state(now as u32)?;
         let share = now - now.floor();
         match body.state(now as u32 + 1) {
-            Some(to) if share > 0.0 => Some(between(&from, to, share)),
+            Some(to) if share > 0.0 => Some(from.toward(to, share)),
             // Between the last frame and the one after, the body has left.
             None if share > 0.0 => None,
             _ => Some(from),
@@ -53,16 +53,6 @@ impl Population for Prescribed {
 
     fn notes(&self) -> Vec<String> {
         self.notes.clone()
-    }
-}
-
-/// State a share of the way from one to another.
-fn between(from: &TargetState, to: &TargetState, share: f64) -> TargetState {
-    let turn = real::wrap_angle_rad(to.heading_rad - from.heading_rad);
-    TargetState {
-        feet_in_world: from.feet_in_world.lerp(to.feet_in_world, share),
-        heading_rad: real::wrap_angle_rad(from.heading_rad + share * turn),
-        speed_mps: from.speed_mps + share * (to.speed_mps - from.speed_mps),
     }
 }
 
