@@ -60,30 +60,12 @@ pub fn town() -> InputPort {
 
 /// A port that meets the stage item by item.
 pub fn each(name: &'static str, artifact: &'static str, many: bool, doc: &'static str) -> InputPort {
-    InputPort {
-        name,
-        artifact,
-        fan: Fan::Each,
-        takes: takes(many),
-        optional: false,
-        source: PortSource::Recipe,
-        sees: Sees::All,
-        doc,
-    }
+    InputPort { name, artifact, fan: Fan::Each, takes: takes(many), doc, ..town() }
 }
 
 /// A port that brings all items of an input at once.
 pub fn gather(name: &'static str, artifact: &'static str, many: bool, doc: &'static str) -> InputPort {
-    InputPort {
-        name,
-        artifact,
-        fan: Fan::Gather,
-        takes: takes(many),
-        optional: false,
-        source: PortSource::Recipe,
-        sees: Sees::All,
-        doc,
-    }
+    InputPort { fan: Fan::Gather, ..each(name, artifact, many, doc) }
 }
 
 /// A port of rendered trajectories whose stage does not see the pictures.

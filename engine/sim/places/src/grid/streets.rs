@@ -154,7 +154,7 @@ impl Network {
                 let (from, to) = (self.grid.node(column, row), self.grid.node(column + 1, row));
                 let start = Pose2 { at: from + DVec2::X * self.mouth_m(&self.profiles[0][column]), heading_rad: 0.0 };
                 let end = to - DVec2::X * self.mouth_m(&self.profiles[0][column + 1]);
-                let line = connect_spirals(start, end);
+                let line = connect(start, end, Alignment::sideways_by_spirals);
                 let outer_side = is_edge.then_some(if row == 0 { -1.0 } else { 1.0 });
                 self.lay(line, self.profiles[1][row], [(column, row, 0), (column + 1, row, 2)], outer_side);
             }
@@ -171,7 +171,7 @@ impl Network {
                 let start =
                     Pose2 { at: from + DVec2::Y * self.mouth_m(&self.profiles[1][row]), heading_rad: real::FRAC_PI_2 };
                 let end = to - DVec2::Y * self.mouth_m(&self.profiles[1][row + 1]);
-                let line = connect_arcs(start, end);
+                let line = connect(start, end, Alignment::sideways_by_arcs);
                 let outer_side = is_edge.then_some(if column == 0 { 1.0 } else { -1.0 });
                 self.lay(line, self.profiles[0][column], [(column, row, 1), (column, row + 1, 3)], outer_side);
             }
@@ -237,18 +237,8 @@ impl Network {
     }
 }
 
-fn connect_spirals(start: Pose2, end: DVec2) -> Alignment {
+/// A line on from a start to an end that lies ahead and aside; `aside` takes both distances and the size of a bend, metres.
+fn connect(start: Pose2, end: DVec2, aside: fn(Pose2, f64, f64, f64) -> Alignment) -> Alignment {
     let (ahead_m, left_m) = ((end - start.at).dot(start.ahead()), (end - start.at).dot(start.left()));
-    if left_m.abs() < 1e-9 {
-        return Alignment::straight(start, ahead_m);
-    }
-    Alignment::sideways_by_spirals(start, ahead_m, left_m, 4.0)
-}
-
-fn connect_arcs(start: Pose2, end: DVec2) -> Alignment {
-    let (ahead_m, left_m) = ((end - start.at).dot(start.ahead()), (end - start.at).dot(start.left()));
-    if left_m.abs() < 1e-9 {
-        return Alignment::straight(start, ahead_m);
-    }
-    Alignment::sideways_by_arcs(start, ahead_m, left_m, 4.0)
+    if left_m.abs() < 1e-9 { Alignment::straight(start, ahead_m) } else { aside(start, ahead_m, left_m, 4.0) }
 }
