@@ -8,7 +8,9 @@ use cosfly_schema::CaptionRecord;
 use cosfly_schema::tables::Captions;
 
 /// Reads captions trajectory by trajectory.
-pub struct CaptionReader(KeptRows<CaptionRecord>);
+pub struct CaptionReader {
+    rows: KeptRows<CaptionRecord>,
+}
 
 impl CaptionReader {
     /// A reader of table `captions`.
@@ -16,7 +18,7 @@ impl CaptionReader {
     /// # Errors
     /// Damage of the table.
     pub fn of(dataset: &PublishedDataset) -> Result<Self> {
-        Ok(Self(KeptRows::of(dataset, "captions")?))
+        Ok(Self { rows: KeptRows::of(dataset, "captions")? })
     }
 
     /// Captions of the trajectory at a place in [`PublishedDataset::flights`] of the same dataset.
@@ -40,6 +42,6 @@ impl CaptionReader {
                 refused_for: vec![],
             }))
         };
-        self.0.at(dataset, place, Captions::trajectory_id, read, |_| ())
+        self.rows.at(dataset, place, Captions::trajectory_id, read, |_| ())
     }
 }

@@ -4,7 +4,7 @@ use super::identity::Identity;
 use super::image_log::ImageLog;
 use super::inner_path::inner_path;
 use super::log::LogReader;
-use super::rows::read;
+use super::rows::{Rows, read};
 use super::trajectory::{PublishedFlight, Shared};
 use cosfly_diagnose::{Diagnostic, Fault, Result, absent, nearest_name};
 use cosfly_schema::Split;
@@ -112,20 +112,25 @@ impl PublishedDataset {
         Ok(files.into_iter().map(|(_, split, path)| (split, path)).collect())
     }
 
+    /// Calls `visit` with each row of a table, in order.
+    ///
+    /// # Errors
+    /// Damage of the table, or an error of `visit`.
+    pub(super) fn each_row(&self, table: &str, visit: &mut dyn FnMut(&Rows<'_>, usize) -> Result<()>) -> Result<()> {
+        let mut each = |rows: &Rows<'_>| (0..rows.len()).try_for_each(|row| visit(rows, row));
+        self.files(table)?.iter().try_for_each(|(_, path)| read(path, &mut each))
+    }
+
     /// Items without a trajectory, with their reasons.
     ///
     /// # Errors
     /// Damage of table `rejected`.
     pub fn rejections(&self) -> Result<BTreeMap<String, String>> {
         let mut found = BTreeMap::new();
-        for (_, path) in self.files("rejected")? {
-            read(&path, &mut |rows| {
-                for row in 0..rows.len() {
-                    found.insert(rows.get(Rejected::trajectory_id, row)?, rows.get(Rejected::reason, row)?);
-                }
-                Ok(())
-            })?;
-        }
+        self.each_row("rejected", &mut |rows, row| {
+            found.insert(rows.get(Rejected::trajectory_id, row)?, rows.get(Rejected::reason, row)?);
+            Ok(())
+        })?;
         Ok(found)
     }
 

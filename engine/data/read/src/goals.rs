@@ -1,7 +1,6 @@
 //! Goals of all trajectories.
 
 use super::dataset::PublishedDataset;
-use super::rows::read;
 use cosfly_diagnose::Result;
 use cosfly_schema::tables::Goals;
 use std::collections::BTreeMap;
@@ -30,25 +29,21 @@ impl PublishedDataset {
     /// Damage of table `goals`.
     pub fn goals(&self, language: &str) -> Result<BTreeMap<String, Vec<PublishedGoal>>> {
         let mut found: BTreeMap<String, Vec<PublishedGoal>> = BTreeMap::new();
-        for (_, path) in self.files("goals")? {
-            read(&path, &mut |rows| {
-                for row in 0..rows.len() {
-                    if rows.get(Goals::language, row)? != language {
-                        continue;
-                    }
-                    let frames = [rows.get(Goals::start_frame, row)?, rows.get(Goals::end_frame, row)?];
-                    found.entry(rows.get(Goals::trajectory_id, row)?).or_default().push(PublishedGoal {
-                        grain: rows.get(Goals::grain, row)?,
-                        frames: frames.map(|frame| frame as usize),
-                        lines: rows.get(Goals::lines, row)?,
-                        fits: rows.get(Goals::fits, row)?,
-                        false_subject: rows.get(Goals::false_subject, row)?,
-                        claims: rows.get(Goals::claims, row)?,
-                    });
-                }
-                Ok(())
-            })?;
-        }
+        self.each_row("goals", &mut |rows, row| {
+            if rows.get(Goals::language, row)? != language {
+                return Ok(());
+            }
+            let frames = [rows.get(Goals::start_frame, row)?, rows.get(Goals::end_frame, row)?];
+            found.entry(rows.get(Goals::trajectory_id, row)?).or_default().push(PublishedGoal {
+                grain: rows.get(Goals::grain, row)?,
+                frames: frames.map(|frame| frame as usize),
+                lines: rows.get(Goals::lines, row)?,
+                fits: rows.get(Goals::fits, row)?,
+                false_subject: rows.get(Goals::false_subject, row)?,
+                claims: rows.get(Goals::claims, row)?,
+            });
+            Ok(())
+        })?;
         Ok(found)
     }
 }

@@ -73,7 +73,9 @@ impl SpaceRow {
 }
 
 /// Reads the rows of table `bodies_3d` trajectory by trajectory.
-pub struct SpaceReader(KeptRows<SpaceRow>);
+pub struct SpaceReader {
+    rows: KeptRows<SpaceRow>,
+}
 
 impl SpaceReader {
     /// A reader of the table, which datasets from before it do not have.
@@ -81,7 +83,7 @@ impl SpaceReader {
     /// # Errors
     /// Damage of the table.
     pub fn of(dataset: &PublishedDataset) -> Result<Self> {
-        Ok(Self(KeptRows::of(dataset, "bodies_3d")?))
+        Ok(Self { rows: KeptRows::of(dataset, "bodies_3d")? })
     }
 
     /// Rows of the trajectory at a place in [`PublishedDataset::flights`] of the same dataset, by frame and id.
@@ -90,6 +92,6 @@ impl SpaceReader {
     /// Damage of the table.
     pub fn at(&mut self, dataset: &PublishedDataset, place: usize) -> Result<&[SpaceRow]> {
         let read = |rows: &Rows<'_>, row: usize| SpaceRow::read(rows, row).map(Some);
-        self.0.at(dataset, place, Bodies3d::trajectory_id, read, |row| (row.frame, row.instance))
+        self.rows.at(dataset, place, Bodies3d::trajectory_id, read, |row| (row.frame, row.instance))
     }
 }

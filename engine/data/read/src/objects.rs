@@ -1,7 +1,6 @@
 //! Boxes of the objects in the towns of a dataset, from table `objects`.
 
 use super::dataset::PublishedDataset;
-use super::rows::read;
 use cosfly_diagnose::Result;
 use cosfly_frames::DVec3;
 use cosfly_schema::tables::Objects;
@@ -30,15 +29,11 @@ impl PublishedDataset {
     /// Damage of the table.
     pub fn object_places(&self) -> Result<BTreeMap<String, Vec<[f64; 2]>>> {
         let mut found: BTreeMap<String, Vec<[f64; 2]>> = BTreeMap::new();
-        for (_, path) in self.files("objects")? {
-            read(&path, &mut |rows| {
-                for row in 0..rows.len() {
-                    let [x, y, _] = rows.get(Objects::center_in_world_m, row)?;
-                    found.entry(rows.get(Objects::town, row)?).or_default().push([x, y]);
-                }
-                Ok(())
-            })?;
-        }
+        self.each_row("objects", &mut |rows, row| {
+            let [x, y, _] = rows.get(Objects::center_in_world_m, row)?;
+            found.entry(rows.get(Objects::town, row)?).or_default().push([x, y]);
+            Ok(())
+        })?;
         Ok(found)
     }
 
@@ -48,19 +43,14 @@ impl PublishedDataset {
     /// Damage of the table.
     pub fn largest_objects(&self) -> Result<BTreeMap<String, u32>> {
         let mut largest: BTreeMap<String, u32> = BTreeMap::new();
-        for (_, path) in self.files("objects")? {
-            read(&path, &mut |rows| {
-                let towns = rows.values(Objects::town)?;
-                for row in 0..rows.len() {
-                    let id = rows.get(Objects::instance, row)?;
-                    match largest.get_mut(towns.text(row)) {
-                        Some(known) => *known = id.max(*known),
-                        None => drop(largest.insert(towns.text(row).to_owned(), id)),
-                    }
-                }
-                Ok(())
-            })?;
-        }
+        self.each_row("objects", &mut |rows, row| {
+            let (towns, id) = (rows.values(Objects::town)?, rows.get(Objects::instance, row)?);
+            match largest.get_mut(towns.text(row)) {
+                Some(known) => *known = id.max(*known),
+                None => drop(largest.insert(towns.text(row).to_owned(), id)),
+            }
+            Ok(())
+        })?;
         Ok(largest)
     }
 
@@ -70,24 +60,23 @@ impl PublishedDataset {
     /// Damage of the table.
     pub fn objects(&self, kinds: &[&str]) -> Result<Vec<PublishedObject>> {
         let mut found = vec![];
-        for (_, path) in self.files("objects")? {
-            read(&path, &mut |rows| {
-                let of_rows = rows.values(Objects::kind)?;
-                for row in (0..rows.len()).filter(|row| kinds.contains(&of_rows.text(*row))) {
-                    found.push(PublishedObject {
-                        town: rows.get(Objects::town, row)?,
-                        instance: rows.get(Objects::instance, row)?,
-                        kind: of_rows.text(row).to_owned(),
-                        shape: (
-                            DVec3::from_array(rows.get(Objects::center_in_world_m, row)?),
-                            0.5 * DVec3::from_array(rows.get(Objects::size_m, row)?),
-                            rows.get(Objects::yaw_deg, row)?.to_radians(),
-                        ),
-                    });
-                }
-                Ok(())
-            })?;
-        }
+        self.each_row("objects", &mut |rows, row| {
+            let of_rows = rows.values(Objects::kind)?;
+            let kind = of_rows.text(row);
+            if kinds.contains(&kind) {
+                found.push(PublishedObject {
+                    town: rows.get(Objects::town, row)?,
+                    instance: rows.get(Objects::instance, row)?,
+                    kind: kind.to_owned(),
+                    shape: (
+                        DVec3::from_array(rows.get(Objects::center_in_world_m, row)?),
+                        0.5 * DVec3::from_array(rows.get(Objects::size_m, row)?),
+                        rows.get(Objects::yaw_deg, row)?.to_radians(),
+                    ),
+                });
+            }
+            Ok(())
+        })?;
         Ok(found)
     }
 }

@@ -26,7 +26,9 @@ pub struct SeenBody {
 }
 
 /// Reads visible bodies trajectory by trajectory.
-pub struct SightingReader(KeptRows<SeenBody>);
+pub struct SightingReader {
+    rows: KeptRows<SeenBody>,
+}
 
 impl SightingReader {
     /// A reader of table `bodies`.
@@ -34,7 +36,7 @@ impl SightingReader {
     /// # Errors
     /// Damage of the table.
     pub fn of(dataset: &PublishedDataset) -> Result<Self> {
-        Ok(Self(KeptRows::of(dataset, "bodies")?))
+        Ok(Self { rows: KeptRows::of(dataset, "bodies")? })
     }
 
     /// Bodies of the trajectory at a place in [`PublishedDataset::flights`] of the same dataset, by frame and id.
@@ -56,6 +58,6 @@ impl SightingReader {
                 visible_box_px,
             }))
         };
-        self.0.at(dataset, place, Bodies::trajectory_id, read, |body| (body.frame, body.instance))
+        self.rows.at(dataset, place, Bodies::trajectory_id, read, |body| (body.frame, body.instance))
     }
 }
