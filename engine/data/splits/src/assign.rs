@@ -106,12 +106,12 @@ fn representatives(facts: &[FlightFacts], places: &Places, rule: (f64, OverlapDi
 }
 
 /// Place and id of a pedestrian.
-type Walker<'a> = (usize, &'a str);
+type PedestrianInTown<'a> = (usize, &'a str);
 
 /// Pedestrian and route, once for all flights behind a walk.
-fn distinct_routes<'a>(facts: &'a [FlightFacts], places: &Places) -> Vec<(Walker<'a>, &'a route::Route)> {
-    let mut routes: Vec<(Walker<'a>, &route::Route)> = vec![];
-    let mut known: BTreeMap<Walker<'a>, Vec<usize>> = BTreeMap::new();
+fn distinct_routes<'a>(facts: &'a [FlightFacts], places: &Places) -> Vec<(PedestrianInTown<'a>, &'a route::Route)> {
+    let mut routes: Vec<(PedestrianInTown<'a>, &route::Route)> = vec![];
+    let mut known: BTreeMap<PedestrianInTown<'a>, Vec<usize>> = BTreeMap::new();
     for (it, place) in facts.iter().zip(&places.of_flight) {
         let walker = (*place, it.pedestrian_id.as_str());
         let of_walker = known.entry(walker).or_default();

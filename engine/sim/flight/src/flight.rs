@@ -35,7 +35,7 @@ pub struct MovingBodies {
 }
 
 enum Purpose {
-    Walker,
+    Followed,
     Walls(Box<Inspection>),
     Waypoints(Box<Patrol>),
     Reference(Box<DrawnReference>),
@@ -101,7 +101,7 @@ impl Flight {
         let structures = if objective.objective == Objective::Inspect { buildings(world) } else { Vec::new() };
         let site = Site { exact: &world.exact, structures: &structures, ground: &ground, bounds: bounds(world) };
         let (mission, purpose) = match (objective.objective, walk) {
-            (Objective::Track, Some(walk)) => (track::mission(walk, config), Purpose::Walker),
+            (Objective::Track, Some(walk)) => (track::mission(walk, config), Purpose::Followed),
             (Objective::Track, None) => return Err("there is no walk to follow".to_owned()),
             (Objective::Inspect, _) => {
                 let inspection = inspect::mission(&site, &objective.inspect, config, seed)?;
@@ -135,7 +135,7 @@ impl Flight {
 
     /// Flight with a pilot who aims at the walker as `aim` says; flights that follow nobody stay as they are.
     pub fn aiming(mut self, aim: &AimConfig) -> Self {
-        self.aim = matches!(self.purpose, Purpose::Walker).then(|| aim.clone());
+        self.aim = matches!(self.purpose, Purpose::Followed).then(|| aim.clone());
         self
     }
 
@@ -254,7 +254,7 @@ impl Flight {
         let mut notes = BTreeMap::new();
         let mut warnings = Vec::new();
         match &self.purpose {
-            Purpose::Walker => {}
+            Purpose::Followed => {}
             Purpose::Walls(inspection) => {
                 notes.insert("coverage".to_owned(), format!("{:.3}", flight.coverage.iter().sum::<f64>()));
                 notes.insert("sides".to_owned(), format!("{} of 4", inspection.sides));

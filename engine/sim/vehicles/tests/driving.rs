@@ -103,14 +103,14 @@ fn the_same_seed_gives_the_same_traffic_and_another_one_another() {
 }
 
 /// Somebody who walks over the middle of a crossing, again and again.
-struct Walker {
+struct StreetCrosser {
     from: DVec2,
     to: DVec2,
     share: f64,
     waits: bool,
 }
 
-impl Population for Walker {
+impl Population for StreetCrosser {
     fn plans(&self) -> Vec<BodyPlan> {
         let size_m = DVec3::new(0.5, 0.5, 1.75);
         vec![BodyPlan { source: String::new(), kind: BodyKind::Pedestrian, size_m, looks: Seed([0; 32]), group: None }]
@@ -162,7 +162,7 @@ fn vehicles_stop_for_people_on_crossings() {
         let long = usize::from(sides[1][0].distance(sides[1][1]) > sides[0][0].distance(sides[0][1]));
         let shift = 0.5 * (sides[1 - long][1] - sides[1 - long][0]) * if long == 0 { 1.0 } else { -1.0 };
         let [from, to] = sides[long].map(|corner| corner + shift);
-        populations.push(Box::new(Walker { from, to, share: 0.0, waits: true }));
+        populations.push(Box::new(StreetCrosser { from, to, share: 0.0, waits: true }));
     }
     let traffic = run(&mut populations, clock());
     let found = contacts(&traffic, 0.0);
