@@ -34,6 +34,9 @@ pub fn motion_of(hasher: &blake3::Hasher) -> Motion {
     hasher.finalize().as_bytes()[..16].try_into().unwrap_or_default()
 }
 
+/// Callback for a row of table `objects`: its place, its town and its box.
+type EachBox<'a> = &'a mut dyn FnMut(&TableRows<'_>, usize, String, OrientedBox) -> Result<()>;
+
 /// The flights of a dataset and all that is known of them.
 pub struct Flights<'a> {
     /// Folder of the dataset.
@@ -52,7 +55,7 @@ pub struct Flights<'a> {
 
 impl Flights<'_> {
     /// Gives each box of table `objects` with its town; damage of the table is reported elsewhere.
-    pub fn each_box(&self, each: &mut dyn FnMut(&TableRows<'_>, usize, String, OrientedBox) -> Result<()>) {
+    pub fn each_box(&self, each: EachBox<'_>) {
         for file in self.files.sound_below("data/objects/") {
             let _ = rows::read(&self.folder.join(file), &tables::of_objects(), &mut |rows| {
                 (0..rows.len()).try_for_each(|row| {
