@@ -14,6 +14,8 @@ import json
 import subprocess
 import sys
 
+import tools
+
 OBSERVATIONS = {
     "state": ("state",),
     "depth": ("depth",),
@@ -52,11 +54,12 @@ def measure(recipe: str, names: list[str], count: int, size: int, steps: int) ->
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("recipe")
-    parser.add_argument("--counts", type=int, nargs="+", default=[1, 64, 256])
-    parser.add_argument("--size", type=int, default=84)
-    parser.add_argument("--steps", type=int, default=20)
+    parser.add_argument("--counts", type=tools.counted, nargs="+", default=[1, 64, 256])
+    parser.add_argument("--size", type=tools.counted, default=84)
+    parser.add_argument("--steps", type=tools.counted, default=20)
     parser.add_argument("--one", nargs="+", help=argparse.SUPPRESS)
     arguments = parser.parse_args()
+    tools.need("numpy", "gymnasium", "cosfly")
     if arguments.one:
         found = measure(arguments.recipe, arguments.one, arguments.counts[0], arguments.size, arguments.steps)
         print(json.dumps(found))
@@ -65,7 +68,10 @@ def main() -> None:
     def one(names: tuple[str, ...], count: int) -> dict[str, float]:
         command = [sys.executable, __file__, arguments.recipe, "--counts", str(count), "--size", str(arguments.size)]
         command += ["--steps", str(arguments.steps), "--one", *names]
-        return json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout.splitlines()[-1])
+        done = subprocess.run(command, stdout=subprocess.PIPE)
+        if done.returncode:
+            raise SystemExit(done.returncode)  # the process has said why
+        return json.loads(done.stdout.splitlines()[-1])
 
     one(("state",), 1)
     print(f"{'obs':<10} {'envs':>5} {'package':>9} {'resident':>9} {'at most':>9} {'added':>9} {'50 + envs':>10}")
@@ -80,4 +86,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    tools.script(main)

@@ -18,6 +18,9 @@ import pathlib
 import subprocess
 import time
 
+import tools
+
+tools.need("numpy", "onnx", "cosfly")
 import numpy as np
 import onnx
 from onnx import TensorProto, helper, numpy_helper
@@ -288,7 +291,7 @@ def main():
     parser.add_argument("work", type=pathlib.Path)
     parser.add_argument("--cosfly", default="cosfly")
     parser.add_argument("--store")
-    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--rounds", type=tools.counted, default=3)
     parser.add_argument("--suites", nargs="+", default=SUITES, help="suites whose walks are drawn anew, never those of the judge")
     parser.add_argument("--seed", type=int, default=7001, help="seed of these walks and of the network")
     given = parser.parse_args()
@@ -306,7 +309,7 @@ def main():
             version = given.work / f"{given.kind}-{suite}-{round_}"
             recipe = HERE.parent / "suites" / f"{suite}.toml"
             command = [given.cosfly, "dagger", recipe, "--set", f"seed={given.seed}", *who, "--round", f"round{round_}", *keep, "--out", version, *store]
-            subprocess.run([str(word) for word in command], check=True, stdout=subprocess.DEVNULL)
+            tools.cosfly(command, stdout=subprocess.DEVNULL)
             found = examples(given.kind, version)
             x.append(found[0])
             y.append(found[1])
@@ -318,4 +321,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    tools.script(main)

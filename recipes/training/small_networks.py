@@ -21,6 +21,9 @@ import copy
 import json
 from pathlib import Path
 
+import tools
+
+tools.need("numpy", "pyarrow.dataset")
 import numpy as np
 import pyarrow.dataset as ds
 
@@ -263,9 +266,9 @@ def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("dataset", type=Path, help="folder of a finished dataset")
     arguments.add_argument("--predictions", type=Path, help="write the first network's predictions for `cosfly eval`")
-    arguments.add_argument("--steps", type=int, default=4000, help="steps of training (default 4000)")
+    arguments.add_argument("--steps", type=tools.counted, default=4000, help="steps of training (default 4000)")
     arguments.add_argument("--depth", action="store_true", help="also read distances from the depth pictures of the logs")
-    arguments.add_argument("--seeds", type=int, default=3, help="networks of each kind (default 3)")
+    arguments.add_argument("--seeds", type=tools.counted, default=3, help="networks of each kind (default 3)")
     chosen = arguments.parse_args()
     splits = {file.name.split("-")[0] for file in (chosen.dataset / "data/windows").glob("*.parquet")}
     judged_splits = sorted(splits - {"train"})
@@ -323,4 +326,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    tools.script(main)

@@ -78,4 +78,6 @@ def act(observation):
 if __name__ == "__main__":
     if len(sys.argv) != 4 or sys.argv[1] != "train":
         sys.exit(__doc__)
-    train(sys.argv[2], sys.argv[3])
+    import tools
+
+    tools.script(lambda: train(sys.argv[2], sys.argv[3]))

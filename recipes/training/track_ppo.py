@@ -15,6 +15,9 @@ import argparse
 import functools
 import time
 
+import tools
+
+tools.need("numpy", "gymnasium", "jax", "cosfly")
 import gymnasium as gym
 import jax
 import jax.numpy as jnp
@@ -128,7 +131,7 @@ def main():
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("recipe")
     options.add_argument("--minutes", type=float, default=15)
-    options.add_argument("--envs", type=int, default=32)
+    options.add_argument("--envs", type=tools.counted, default=32)
     options.add_argument("--warm", type=float, default=0.4, help="share of the time that imitates the expert, 0 to 1")
     options.add_argument("--seed", type=int, default=1)
     given = options.parse_args()
@@ -222,4 +225,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    tools.script(main)

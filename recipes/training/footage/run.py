@@ -12,13 +12,14 @@ from __future__ import annotations
 import argparse
 import hashlib
 import json
-import subprocess
 import sys
 from pathlib import Path
 from typing import Dict
 
 HERE = Path(__file__).resolve().parent
-sys.path.append(str(HERE.parent))  # boxes.py
+sys.path.append(str(HERE.parent))  # tools.py, boxes.py
+import tools
+
 # What `--without` leaves out of the recipe, one at a time.
 PARTS = {
     "optics": ["stages.frames.optics.preset=ideal"],
@@ -31,12 +32,6 @@ PARTS = {
 }
 
 
-def counted(text: str) -> int:
-    if not text.isdigit() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"`{text}` is no whole number from 1 on")
-    return int(text)
-
-
 def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     add = parser.add_argument
@@ -47,12 +42,12 @@ def arguments() -> argparse.Namespace:
     add("--others", **sequence, help="the same for a sequence that follows anything else: for the tracker alone")
     add("--without", choices=sorted(PARTS), help="leave a part of the recipe out, to see what it is good for")
     add("--set", action="append", default=[], metavar="KEY=VALUE", help="change the recipe, as in `cosfly run`")
-    add("--steps", type=counted, default=4000, help="steps of training of both networks at once (default: 4000)")
-    add("--alone", type=counted, default=2000, help="steps in which the detector then learns alone (default: 2000; together about 40 minutes of one core)")
-    add("--per-frame", type=counted, default=3, help="bodies around which squares are cut from each picture (default: 3)")
-    add("--every", type=counted, default=4, help="score the detector on every n-th picture of a sequence (default: 4)")
+    add("--steps", type=tools.counted, default=4000, help="steps of training of both networks at once (default: 4000)")
+    add("--alone", type=tools.counted, default=2000, help="steps in which the detector then learns alone (default: 2000; together about 40 minutes of one core)")
+    add("--per-frame", type=tools.counted, default=3, help="bodies around which squares are cut from each picture (default: 3)")
+    add("--every", type=tools.counted, default=4, help="score the detector on every n-th picture of a sequence (default: 4)")
     add("--seed", type=int, default=1)
-    add("--threads", type=counted, default=1, help="threads of torch: other numbers give other last bits (default: 1)")
+    add("--threads", type=tools.counted, default=1, help="threads of torch: other numbers give other last bits (default: 1)")
     options = parser.parse_args()
     for sequence in options.people + options.others:
         if len(sequence) not in (2, 3) or (len(sequence) == 3 and not (sequence[2].isdigit() and int(sequence[2]))):
@@ -63,12 +58,7 @@ def arguments() -> argparse.Namespace:
 def data(options: argparse.Namespace, out: Path) -> Path:
     sets = [part for pair in [*(PARTS[options.without] if options.without else []), *options.set] for part in ("--set", pair)]
     command = [options.cosfly, "run", str(HERE / "data.toml"), "--out", str(out / "data"), "--store", str(options.out / "store"), *sets]
-    try:
-        code = subprocess.run(command).returncode
-    except OSError as error:
-        raise SystemExit(f"footage: {options.cosfly} cannot be run: {error.strerror}; `--cosfly` names the program") from None
-    if code:
-        raise SystemExit("footage: cosfly failed; its words are above")
+    tools.cosfly(command)
     return out / "data"
 
 
@@ -102,11 +92,9 @@ def networks_of(options: argparse.Namespace, out: Path, dataset: Path) -> Dict[s
 
 def main() -> None:
     options = arguments()
-    try:
-        import cosfly  # noqa: F401
-        import torch
-    except ImportError as missing:
-        raise SystemExit(f"footage: {missing}; the book's page `Real footage` says what to install") from None
+    tools.need("torch", "numpy", "PIL", "cosfly")
+    import torch
+
     torch.set_num_threads(options.threads)
     import scores
 
@@ -123,4 +111,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    tools.script(main)

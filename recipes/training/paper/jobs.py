@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 import os
-import subprocess
 import sys
 import time
 from pathlib import Path
 from typing import BinaryIO, Callable, List, Optional
 
 import numpy as np
+import tools
 
 
 def run_recipe(cosfly: str, recipe: str, folder: Path, settings: List[str]) -> None:
     command = [cosfly, "run", str(Path(__file__).parent / recipe), "--out", str(folder), "--quiet"]
-    try:
-        done = subprocess.run(command + [part for it in settings for part in ("--set", it)])
-    except OSError as error:
-        raise SystemExit(f"cannot start `{cosfly}`: {error}; name the program with `--cosfly`") from None
-    if done.returncode:
-        raise SystemExit(done.returncode)
+    tools.cosfly(command + [part for it in settings for part in ("--set", it)])
 
 
 def write_whole(path: Path, write: Callable[[BinaryIO], object]) -> None:

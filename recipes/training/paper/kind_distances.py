@@ -8,9 +8,14 @@ and over those of two kinds."""
 
 import argparse
 import re
+import sys
 from itertools import combinations, product
 from pathlib import Path
 
+sys.path.append(str(Path(__file__).resolve().parents[1]))  # tools.py
+import tools
+
+tools.need("numpy", "cosfly", "pyarrow.parquet")
 import numpy as np
 
 FARTHEST_M = 1000.0
@@ -90,4 +95,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    tools.script(main)

@@ -16,19 +16,20 @@ import argparse
 import hashlib
 import json
 import math
+import sys
 import warnings
 from pathlib import Path
 from typing import Dict, List, Tuple
 
-import numpy as np
+sys.path.append(str(Path(__file__).resolve().parents[1]))  # tools.py
+import tools
 
-try:
-    import cosfly
-    import torch
-    from torch import Tensor, nn
-    from torch.nn import functional
-except ImportError as missing:
-    raise SystemExit(f"{missing}; the book's page `Several kinds of places` says what to install") from None
+tools.need("torch", "numpy", "cosfly")
+import cosfly
+import numpy as np
+import torch
+from torch import Tensor, nn
+from torch.nn import functional
 
 from jobs import Jobs, run_recipe, write_whole
 
@@ -321,4 +322,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    tools.script(main)

@@ -18,15 +18,13 @@ import sys
 from pathlib import Path
 from typing import Dict, List
 
+sys.path.append(str(Path(__file__).resolve().parents[1]))  # tools.py, boxes.py
+import tools
+
+tools.need("torch", "numpy", "pyarrow.dataset")
 import numpy as np
-
-try:
-    import torch
-except ImportError:
-    raise SystemExit("torch is missing: `apt-get install python3-torch libopenblas0` on Debian and Ubuntu, `pip install torch` elsewhere") from None
-
-sys.path.append(str(Path(__file__).resolve().parents[1]))  # boxes.py
 import report
+import torch
 from jobs import Jobs, run_recipe, write_whole
 from rows import PERTURBED, EXPERT, ROWS, ZERO, PaperWindows, Row, trained
 
@@ -62,8 +60,8 @@ def main() -> None:
     arguments.add_argument("--cosfly", default="cosfly", help="the program (default cosfly)")
     arguments.add_argument("--pictures", action="store_true", help="rows with pictures, too")
     arguments.add_argument("--anchor", choices=["expert", "input"], default="expert", help="where waypoints begin (default expert, the paper's)")
-    arguments.add_argument("--steps", type=int, default=3000, help="steps of training (default 3000)")
-    arguments.add_argument("--seeds", type=int, default=3, help="networks of each row (default 3)")
+    arguments.add_argument("--steps", type=tools.counted, default=3000, help="steps of training (default 3000)")
+    arguments.add_argument("--seeds", type=tools.counted, default=3, help="networks of each row (default 3)")
     arguments.add_argument("--minutes", type=float, help="begin no job after so many minutes; run again to go on")
     chosen = arguments.parse_args()
     # Small networks gain nothing from more, and the same seed gives the same results on machines of any size.
@@ -105,4 +103,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    tools.script(main)
