@@ -25,8 +25,12 @@ def write_whole(path: Path, write: Callable[[BinaryIO], object]) -> None:
     os.replace(part, path)
 
 
+class Unfinished(Exception):
+    """The time is over in the middle of a job, which goes on there the next time."""
+
+
 class Jobs:
-    """Results of jobs as files; no job begins after the minutes are over."""
+    """Results of jobs as files; no job begins after the minutes are over, at `end`."""
 
     def __init__(self, folder: Path, minutes: Optional[float]) -> None:
         self.folder, self.end = folder, None if minutes is None else time.monotonic() + 60 * minutes
@@ -40,7 +44,12 @@ class Jobs:
                 self.left += 1
                 return None
             began = time.monotonic()
-            made = make()
+            try:
+                made = make()
+            except Unfinished as left:
+                print(f"{name}: {left}", file=sys.stderr, flush=True)
+                self.left += 1
+                return None
             write_whole(path, lambda file: np.save(file, made))
             print(f"{name}: {time.monotonic() - began:.1f} s", file=sys.stderr, flush=True)
         return np.load(path)

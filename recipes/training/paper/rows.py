@@ -32,6 +32,7 @@ class Row:
     roles: Tuple[int, ...] = BOTH
     share: float = 1.0
     towns: str = "all"
+    pretrained: bool = False
 
     def needs_pictures(self) -> bool:
         return "rgb" in self.inputs or "depth" in self.inputs
@@ -39,7 +40,8 @@ class Row:
     def slug(self) -> str:
         """Name of the results: rows that learn the same share them."""
         roles = "".join(map(str, sorted(self.roles)))
-        return f"{self.inputs.replace(' ', '_') or 'zero'}-roles{roles}-{100 * self.share:.0f}-{self.towns}"
+        name = "pretrained-" if self.pretrained else ""
+        return f"{name}{self.inputs.replace(' ', '_') or 'zero'}-roles{roles}-{100 * self.share:.0f}-{self.towns}"
 
 
 def paper(ade: float, fde: float, sr_1m: float, yaw: float) -> Numbers:
@@ -57,6 +59,7 @@ ROWS = [
     Row("Modality", "RGB + box", "rgb box", paper(2.439, 3.805, 17.6, 3.88)),
     Row("Modality", "RGB", "rgb", paper(2.503, 3.911, 15.8, 3.93)),
     Row("Modality", "RGB + pose + box", "rgb pose box", paper(0.846, 1.249, 77.6, 3.87)),
+    Row("Pretrained", "RGB + pose + box", "rgb pose box", paper(0.846, 1.249, 77.6, 3.87), pretrained=True),
     Row("Paradigm", "mixed", "pose box", paper(0.846, 1.249, 77.6, 3.87)),
     Row("Paradigm", "expert only", "pose box", paper(0.855, 1.270, 75.1, 6.54), roles=EXPERTS),
     Row("Paradigm", "denoising", "pose box", paper(0.844, 1.239, 78.8, 3.97), roles=DENOISING),
@@ -140,3 +143,15 @@ def trained(row: Row, lessons: PaperWindows, judged: PaperWindows, pack: Optiona
     network = networks.train(in_scale.apply(seen), out_scale.apply(wanted), of_lessons, steps, seed)
     found = networks.predict(network, in_scale.apply(numbers(judged, row)), of_judged)
     return scores(base.as_deltas(out_scale.undo(found), judged.current), judged)
+
+
+def fine_tuned(
+    source: str, lessons: PaperWindows, judged: PaperWindows, pack: "object", steps: int, seed: int, kept: Path, end: Optional[float]
+) -> np.ndarray:
+    """Scores of a pretrained model on the judged windows; `kept` holds what it has learnt where the time, `end`, is over."""
+    import pretrained
+
+    wanted = base.outcomes(lessons)
+    scale = base.Scale(wanted)
+    found = pretrained.fine_tuned(source, pack, lessons, judged, scale.apply(wanted), steps, seed, kept, end)
+    return scores(base.as_deltas(scale.undo(found), judged.current), judged)
