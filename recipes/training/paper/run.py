@@ -30,7 +30,7 @@ import torch
 from jobs import Jobs, run_recipe, write_whole
 from rows import PERTURBED, EXPERT, ROWS, ZERO, PaperWindows, Row, fine_tuned, trained
 
-# Pictures in which a person has 16 pixels of height, in the full look.
+# Pictures in which a person is 15 pixels high in the median, in the full look; `pictures.SIZE` is what networks see of them.
 WITH_PICTURES = ["stages.frames.look=full", "stages.frames.width=640", "stages.frames.height=360"]
 
 
