@@ -106,8 +106,6 @@ def main() -> None:
     report = scores.report(trained["detector"], trained["tracker"], dataset, people, others, options.every)
     (out / "report.md").write_text(report)
     print(f"\n{report}\n{out / 'report.md'}")
-    if not people:
-        print("footage: no real footage was named; `--people FRAMES BOXES` scores the networks on yours")
 
 
 if __name__ == "__main__":

@@ -18,6 +18,7 @@ FALSE_A_SQUARE = 0.05
 STRETCHES, DRAWN = 10, 1000
 NEAR_PX = 20
 LEAST_PX = 10
+OF_OPENCV = ("CSRT", "KCF")
 Begin = Callable[[Image.Image, np.ndarray], Any]  # a tracker in a sequence, from its first picture and box on
 
 
@@ -157,8 +158,8 @@ def trackers(tracker: Tracker) -> Dict[str, Begin]:
     try:
         import cv2
     except ImportError:
-        return found
-    for name in ("CSRT", "KCF"):
+        cv2 = None  # the report says so
+    for name in OF_OPENCV:
         if hasattr(cv2, f"Tracker{name}_create"):
             make = getattr(cv2, f"Tracker{name}_create")
             found[f"{name} of OpenCV {cv2.__version__}"] = lambda picture, box, make=make: OfOpenCv(make, picture, box)
@@ -209,6 +210,11 @@ def report(detector: Detector, tracker: Tracker, dataset: Path, people: List[Seq
         for name, rows in all_of.items() if len(people + others) > 1 else ():
             means = [mean_of([row[score].value for row in rows]) for score in rows[0]]
             lines.append(f"| **mean of {len(rows)} sequences** | {name} | " + " | ".join(map(str, means)) + " |")
+        left = [name for name in OF_OPENCV if not any(name in it for it in all_of)]
+        if left:
+            lines += ["", f"NOT RUN: {' and '.join(left)}, for OpenCV does not have them here; `pip install opencv-contrib-python-headless==4.10.0.84`"]
+    else:
+        lines += ["", "NOT RUN: real footage, for none was named; `--people FRAMES BOXES` scores the networks on yours"]
     return "\n".join([*lines, ""])
 
 
