@@ -245,17 +245,17 @@ def crowded(flat, up, spots):
     return (near * (2 / ROOM_M**2) + 1).least(0) * ROOM_COST  # near is minus half the square of the distance
 
 
-def hidden(flat, up, target):
+def hidden(flat, up, target, thick_m=THICK_M, beside_m=BESIDE_M):
     """How likely obstacles hide a place: 0 to 1, for each direction and slope."""
     # Each point hides what is behind a ball around the middle of its obstacle, in a space that is squeezed to make it round.
-    squeeze = BESIDE_M * 2 / (THICK_M + OVER_M)
+    squeeze = beside_m * 2 / (thick_m + OVER_M)
     rays = RAYS.T * np.array([1, 1, squeeze])
     rays = rays / np.linalg.norm(rays, axis=1, keepdims=True)
     over = up - target[2]
-    balls = joined(flat - joined(*target[:2]).shaped(2, 1), ((over - (THICK_M - OVER_M) / 2) * squeeze).shaped(1, -1))
+    balls = joined(flat - joined(*target[:2]).shaped(2, 1), ((over - (thick_m - OVER_M) / 2) * squeeze).shaped(1, -1))
     square = balls.squared()
-    distance = square.least(BESIDE_M**2).root()
-    edge = distance * (square - BESIDE_M**2).least(0).root()
+    distance = square.least(beside_m**2).root()
+    edge = distance * (square - beside_m**2).least(0).root()
     apart = ((TALL_M - over).least(0) + (distance - REACH_M).least(0)).shaped(1, -1) * 10.0
     inside = np.hstack([rays, -np.ones((len(rays), 1))]) @ joined(balls * distance, edge + apart)
     return (inside.highest(len(rays)) * (1 / SOFT_M2) + 1).within(0, 1).shaped(DIRECTIONS, len(SLOPES))

@@ -8,7 +8,11 @@ import subprocess
 import sys
 from typing import Any, Callable, List
 
-PACKAGES = {"torch": "`apt-get install python3-torch libopenblas0` on Debian and Ubuntu, `pip install torch` elsewhere", "cosfly": "`pip install .` in the repository", "PIL": "`pip install pillow`"}
+PACKAGES = {
+    "torch": "`apt-get install python3-torch libopenblas0` on Debian and Ubuntu, `pip install torch` elsewhere",
+    "cosfly": "`pip install .` in the repository",
+    "PIL": "`pip install pillow`",
+}
 
 
 def need(*names: str) -> None:
