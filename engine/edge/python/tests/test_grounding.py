@@ -94,6 +94,10 @@ def test_what_cannot_be_grounded_is_refused():
         GroundedVector(make_vec(), weight=float("nan"))
     envs = GroundedVector(make_vec(), shows_mask=True)
     assert set(envs.single_observation_space.spaces) == {"state", "mask"}
+    one = Grounded(gym.make(ID, recipe="small/recipe.toml", obs=("state", "mask"), disable_env_checker=True))
+    for begun_by_none in (envs, one):
+        with pytest.raises(gym.error.ResetNeeded):
+            begun_by_none.step(begun_by_none.action_space.sample())
     envs.reset(seed=1)
     with pytest.raises(ValueError, match=r"shape \(3, 5\); it is \(3, 10\)"):
         envs.step(np.zeros((3, 5)))

@@ -99,6 +99,7 @@ class GroundedVector(VectorWrapper):
         self.action_space = batch_space(self.single_action_space, env.num_envs)
         self._begins = env.metadata.get("autoreset_mode") == AutoresetMode.NEXT_STEP
         self._ended = np.zeros(env.num_envs, bool)
+        self._boxes = np.full((env.num_envs, 4), np.nan)  # a step before the first reset is refused by the environments
 
     def reset(self, *, seed: Any = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         observations, info = self.env.reset(seed=seed, options=options)
@@ -132,6 +133,7 @@ class Grounded(gymnasium.Wrapper, RecordConstructorArgs):
         gymnasium.Wrapper.__init__(self, env)
         self._grounding = _Grounding(env.observation_space, weight, shows_mask)
         self.observation_space, self.action_space = self._grounding.space, _Grounding.actions(env.action_space)
+        self._box = np.full(4, np.nan)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         return self._told(*self.env.reset(seed=seed, options=options))
