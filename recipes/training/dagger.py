@@ -13,7 +13,7 @@ import sys
 
 import tools
 
-tools.need("numpy")
+tools.need("numpy", "msgpack")
 import student
 
 HERE = pathlib.Path(__file__).parent.resolve()
