@@ -311,7 +311,7 @@ fn the_policies_that_ship_fly_and_their_card_names_them() {
     let street = Street::new();
     let folder = repository_root().join("recipes/policies");
     let card = std::fs::read_to_string(folder.join("README.md")).expect("a card");
-    for name in ["follow_depth", "follow_law", "follow_state"] {
+    for name in ["follow_choice", "follow_depth", "follow_law", "follow_state"] {
         let file = folder.join(format!("{name}.onnx"));
         assert!(std::fs::metadata(&file).expect("shipped").len() < 5_000_000);
         let printed = fly(street.path(), &format!("onnx:{}", file.display()), &["--out", "shipped"]);

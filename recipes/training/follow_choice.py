@@ -1,4 +1,4 @@
-"""A trained policy that sees what the depth network sees: a network of 1,300 weights weighs the law's 147 velocities.
+"""A trained policy that sees what the depth network sees: a network of 1,290 weights weighs the law's 147 velocities.
 
     python recipes/training/follow_choice.py recipes/policies/follow_choice.onnx WORK
 

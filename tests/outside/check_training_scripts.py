@@ -32,6 +32,7 @@ WRONG = [
     ("policies.py", ["state", out, work / "1", "--cosfly", none], "--cosfly"),
     ("policies.py", ["state", out, work / "2", "--cosfly", cosfly, "--suites", "nowhere"], "nowhere.toml"),
     ("follow_law.py", [full / "file" / "law.onnx"], "file"),
+    ("follow_choice.py", [out, full], "not empty"),
     ("dagger.py", [none, work / "3", "--cosfly", cosfly], str(none)),
     ("student.py", ["train", none, out], "states.npy"),
     ("small_networks.py", [none], "no windows"),
