@@ -7,6 +7,7 @@ mod fleet;
 mod flights;
 mod flights_stages;
 mod flights_steps;
+mod geometry;
 mod ground;
 mod lidar;
 mod look;
@@ -25,7 +26,7 @@ mod vehicles;
 use clap::{Parser, Subcommand};
 use outcome::Outcome;
 
-/// Measurements of cosfly
+/// Measurements of cosfly and of other libraries
 #[derive(Debug, Parser)]
 #[command(name = "cosfly-lab", version, about, max_term_width = 100)]
 pub struct Arguments {
@@ -48,6 +49,9 @@ enum Command {
     Flights(flights::FlightsArguments),
     /// Many trajectories on many workers, simulated: operations of the store, waiting, crashes
     Fleet(fleet::FleetArguments),
+    /// Box queries per second on one core: cosfly's tree, the trees of parry and obvhs, and a brute-force loop
+    #[command(after_help = geometry::EXAMPLES)]
+    Geometry(geometry::GeometryArguments),
     /// Lidars: beams a second of a core by device, over a town
     #[command(after_help = lidar::EXAMPLES)]
     Lidar(lidar::LidarArguments),
@@ -91,6 +95,7 @@ impl Arguments {
             Command::Engine(arguments) => engine::engine(arguments),
             Command::Flights(arguments) => flights::flights(arguments),
             Command::Fleet(arguments) => fleet::fleet(arguments),
+            Command::Geometry(arguments) => geometry::geometry(arguments),
             Command::Lidar(arguments) => lidar::lidar(arguments),
             Command::Look(arguments) => look::look(arguments),
             Command::People(arguments) => people::people(arguments),
