@@ -370,7 +370,7 @@ simd_kernel! {
 #[inline(always)]
 fn raggedness(place: Vec3, normal: Vec3, shift: f32, size: f32, noise: &NoiseTexture) -> f32 {
     let (u, v) = facing(place * PER_M, normal);
-    0.5 * (noise.rough(u + shift, v - shift, size * PER_M) - 0.5)
+    0.5 * (noise.rough(u + shift, v - shift, 1.5 * size * PER_M) - 0.5)
 }
 
 /// The look of a place on a clump. Patterns lie on each clump as seen from outside. Also the way that its leaves are turned.
@@ -390,9 +390,9 @@ fn look(seen: &OnClump, crown: &OnMap, size: f32, ragged: f32, noise: &NoiseText
     let size = size / most(slant.sqrt(), 0.4);
     let apart = crown.shift + 60.0 * (nearest.middle.x + nearest.middle.y);
     let clear = share(1.0 + 12.0 * nearest.met);
-    let big = noise.rough(u + apart, v - apart, 1.15 * size * PER_M) - 0.5;
+    let big = noise.rough(u + apart, v - apart, 1.7 * size * PER_M) - 0.5;
     let fine = lerp(0.85, 1.0, crown.through);
-    let small = noise.grain(u * fine, v * fine, 1.15 * size * PER_M * fine) - 0.5;
+    let small = noise.grain(u * fine, v * fine, 1.7 * size * PER_M * fine) - 0.5;
     // Leaves have edges: light ones before dark gaps.
     let leaf = share(0.5 + small * (4.0 - 3.0 * share(size * PER_M * fine - 0.25))) - 0.5;
     // Twigs are lines, level sets of the same noise, with what lies below the crown between them; they fade where a
