@@ -119,8 +119,8 @@ simd_kernel! {
             let x = 0.8 * place.x + 0.45 * place.y + 0.3 * place.z;
             let y = 0.35 * place.x - 0.7 * place.y + 0.85 * place.z;
             let (pixel_m, shift) = (places.pixel_m[k], places.shift[k]);
-            let leaves = noise.rough(x * 26.0 + shift, y * 26.0, pixel_m * 26.0);
-            let branches = noise.clumps(x * 15.0, y * 15.0 + shift, pixel_m * 15.0);
+            let leaves = noise.rough(x * 26.0 + shift, y * 26.0, pixel_m * 32.0);
+            let branches = noise.clumps(x * 15.0, y * 15.0 + shift, pixel_m * 19.0);
             let twigs = 0.35 * (branches - 0.5).abs() + (leaves - 0.5).abs();
             // Twigs that are thinner than a pixel cover a part of it.
             let fine = share(0.8 * (pixel_m * 20.0 - 0.5));

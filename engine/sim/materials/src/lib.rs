@@ -8,6 +8,7 @@
 //! [`paving`], [`kerbs`], [`lane_marks`], [`lane_wear`], [`leaves`] and [`things`] are the materials: they read points from [`lanes`] and write looks ([`surface`]). [`light`] is the sun, sky and lamps of a [`weather`]; [`grid`] how much of the sky and of
 //! the lamps each place of a town sees; [`scan_light`] the light of scans. [`season`] turns leaves and lawns.
 
+pub mod backdrop;
 mod boats;
 pub mod boughs;
 pub mod building_form;

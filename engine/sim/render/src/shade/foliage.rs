@@ -5,17 +5,19 @@
 //! the tree when the camera moves. Only edges before something farther away are broken. People and vehicles are not mirrored: a
 //! second wheel or arm would be seen; the colour of their edge goes on.
 //!
-//! Crowns without leaves are open all over: between twigs and boughs, what lies beside the crown is seen.
+//! Crowns without leaves are open all over: between twigs and boughs, what lies around the crown is seen, smooth ([`Backdrop`]).
 
 use super::geometry::View;
 use super::setting::{Seen, Setting};
 use crate::faces::FaceSource;
 use crate::passes::ids::{CrownSpan, Run, SeenRuns};
 use crate::scene::Scene;
+use core::cell::OnceCell;
 use cosfly_domain::FrameImages;
+use cosfly_materials::backdrop::{Backdrop, is_background};
 use cosfly_materials::crown_gaps::{GapPlace, GapPlaces, TOGETHER, crown_gaps, is_body, mixed};
 use cosfly_materials::leaves::Leaves;
-use cosfly_materials::pattern::{NoiseTexture, hash, smoothstep, unit};
+use cosfly_materials::pattern::{NoiseTexture, hash, unit};
 
 /// Gaps reach this far into a crown, metres.
 const REACH_M: f32 = 0.8;
@@ -23,6 +25,8 @@ const REACH_M: f32 = 0.8;
 const REACH_SHARE: f32 = 0.33;
 /// Pixels that gaps reach at most.
 const MOST_PX: f32 = 20.0;
+/// What lies beyond the edge of a bare crown is seen sharp in it for less than this, pixels.
+const SHARP_PX: usize = 8;
 /// How dark boughs are, as a share of twigs.
 const BOUGH_SHADE: f32 = 0.45;
 /// Notes the pixels of a run that shows a crown; neighbours of one crown become one span.
@@ -63,10 +67,9 @@ struct Change {
 /// Pixels near an edge that may be gaps.
 struct Waiting {
     count: usize,
-    /// Number of the pixel, and of those that are seen through it, and how much of the second one.
+    /// Number of the pixel, and the colour that is seen through it.
     at: [u32; TOGETHER],
-    behind: [[u32; 2]; TOGETHER],
-    right: [f32; TOGETHER],
+    behind: [[u8; 3]; TOGETHER],
     /// How many pixels the edge is away.
     away: [u8; TOGETHER],
     places: GapPlaces,
@@ -92,6 +95,8 @@ struct Edge {
 struct Picture<'a> {
     view: &'a View,
     images: &'a FrameImages,
+    /// What lies behind bare crowns, worked out for the first one.
+    backdrop: OnceCell<Backdrop>,
 }
 
 impl Foliage {
@@ -101,8 +106,8 @@ impl Foliage {
         self.changes.iter_mut().for_each(Vec::clear);
         let (width, pixels) = (images.width as usize, images.depth_m.len());
         let waiting = self.waiting.get_or_insert_with(|| Box::new(Waiting::EMPTY));
-        let picture = Picture { view: &setting.view, images };
-        let mut look = |waiting: &mut Waiting| waiting.look(setting, &scene.noise, images, &mut self.changes);
+        let picture = Picture { view: &setting.view, images, backdrop: OnceCell::new() };
+        let mut look = |waiting: &mut Waiting| waiting.look(setting, &scene.noise, &mut self.changes);
         for (band, crowns) in runs.crowns(width, pixels) {
             for span in crowns {
                 picture.span(span, band + span.start as usize, waiting, &mut look);
@@ -178,54 +183,46 @@ impl Picture<'_> {
             let behind = if is_same && !is_body { behind } else { outside };
             // Fewer gaps farther inside: dents between branches, ragged by leaves.
             let inside = (k as f32 + 0.5) / reach;
-            let gap = Gap { pixel, behind: [behind; 2], right: 0.0, away: k as u8, pixel_m, inside };
+            let gap = Gap { pixel, behind: self.colour(behind), away: k as u8, pixel_m, inside };
             self.add(span, &gap, waiting, look);
         }
     }
 
-    /// Lists a row's pixels of a crown without leaves: all may be gaps between twigs. What is behind lies on both sides, and goes
-    /// over from one to the other.
+    /// Lists a row's pixels of a crown without leaves: all may be gaps between twigs.
     fn bare(&self, span: &CrownSpan, start: usize, waiting: &mut Waiting, look: &mut impl FnMut(&mut Waiting)) {
-        let FrameImages { depth_m, semantic, instance, width, .. } = self.images;
+        let FrameImages { depth_m, rgb, semantic, width, .. } = self.images;
         let (width, length) = (*width as usize, span.length as usize);
-        let ends = [start, start + length - 1];
-        let room = [start % width, width - 1 - ends[1] % width];
-        let outside = [start.wrapping_sub(1), start + length];
-        let is_open = [0, 1].map(|side| {
-            room[side] > 0
-                && depth_m[outside[side]] >= depth_m[ends[side]] + 0.3
-                && instance[outside[side]] != span.instance
-        });
+        let backdrop = self.backdrop.get_or_init(|| Backdrop::of(rgb, semantic, width));
+        let (row, from) = (start / width, start % width);
         for k in 0..length {
-            let (pixel, steps) = (start + k, [k, length - 1 - k]);
-            let behind = [0, 1].map(|side| {
-                if !is_open[side] {
-                    return pixel;
-                }
-                let away = (steps[side] / 2 + 1).min(room[side]);
-                let there = if side == 0 { start - away } else { ends[1] + away };
-                let is_same = instance[there] == instance[outside[side]] && semantic[there] == semantic[outside[side]];
-                let is_behind = is_same && depth_m[there] >= depth_m[pixel] + 0.3 && !is_body(semantic[there]);
-                if is_behind { there } else { outside[side] }
-            });
-            let along = (k as f32 + 0.5) / length as f32;
-            let right = match is_open {
-                [true, true] => smoothstep(0.2, 0.8, along),
-                [false, true] => 1.0,
-                _ => 0.0,
-            };
-            let inside = 1.0 - (2.0 * along - 1.0).abs();
+            let pixel = start + k;
+            let inside = 1.0 - (2.0 * (k as f32 + 0.5) / length as f32 - 1.0).abs();
             let pixel_m = self.view.pixel() * depth_m[pixel];
-            self.add(span, &Gap { pixel, behind, right, away: 0, pixel_m, inside }, waiting, look);
+            let mut behind = backdrop.at(from + k, row);
+            // Near the edge, what lies beyond it is seen as it is, mirrored.
+            let steps = k.min(length - 1 - k);
+            let there = if steps == k { start.wrapping_sub(k + 1) } else { pixel + 2 * steps + 1 };
+            if steps < SHARP_PX
+                && there / width == row
+                && is_background(semantic[there])
+                && depth_m[there] >= depth_m[pixel] + 0.3
+            {
+                behind = mixed(self.colour(there), behind, (256 * steps / SHARP_PX) as i32);
+            }
+            self.add(span, &Gap { pixel, behind, away: 0, pixel_m, inside }, waiting, look);
         }
+    }
+
+    /// The colour of a pixel.
+    fn colour(&self, pixel: usize) -> [u8; 3] {
+        self.images.rgb.get(3 * pixel..).and_then(|rest| rest.first_chunk()).copied().unwrap_or_default()
     }
 
     /// Puts a pixel behind those that wait, and looks when there are many.
     fn add(&self, span: &CrownSpan, gap: &Gap, waiting: &mut Waiting, look: &mut impl FnMut(&mut Waiting)) {
         let FrameImages { depth_m, width, .. } = self.images;
         let (at, pixel) = (waiting.count, gap.pixel as u32);
-        (waiting.at[at], waiting.behind[at]) = (pixel, gap.behind.map(|behind| behind as u32));
-        (waiting.right[at], waiting.away[at]) = (gap.right, gap.away);
+        (waiting.at[at], waiting.behind[at], waiting.away[at]) = (pixel, gap.behind, gap.away);
         let place = GapPlace {
             crown: &span.outline,
             is_bare: span.is_bare,
@@ -247,9 +244,8 @@ impl Picture<'_> {
 /// A pixel that may be a gap.
 struct Gap {
     pixel: usize,
-    /// What is seen through it, on two sides, and how much of the second.
-    behind: [usize; 2],
-    right: f32,
+    /// The colour that is seen through it.
+    behind: [u8; 3],
     /// How many pixels the edge is away.
     away: u8,
     /// Size of a pixel there, metres, and how far inside the crown it is, as a share of how far gaps reach.
@@ -261,8 +257,7 @@ impl Waiting {
     const EMPTY: Self = Self {
         count: 0,
         at: [0; TOGETHER],
-        behind: [[0; 2]; TOGETHER],
-        right: [0.0; TOGETHER],
+        behind: [[0; 3]; TOGETHER],
         away: [0; TOGETHER],
         places: GapPlaces::EMPTY,
         has_bare: false,
@@ -271,18 +266,15 @@ impl Waiting {
     };
 
     /// Tells how much of the pixels that wait is gap, and notes their colours.
-    fn look(&mut self, setting: &Setting, noise: &NoiseTexture, images: &FrameImages, changes: &mut [Vec<Change>]) {
+    fn look(&mut self, setting: &Setting, noise: &NoiseTexture, changes: &mut [Vec<Change>]) {
         let has_bare = core::mem::take(&mut self.has_bare);
         crown_gaps(setting.level, &self.places, setting.view.position, noise, has_bare, &mut self.gap, &mut self.wood);
         for at in 0..core::mem::take(&mut self.count) {
-            let colour = |pixel: u32| images.rgb.get(3 * pixel as usize..).and_then(|rest| rest.first_chunk::<3>());
-            if self.gap[at] + self.wood[at] > 0.0
-                && let [Some(left), Some(right)] = self.behind[at].map(colour)
-            {
-                let behind = mixed(*left, *right, (256.0 * self.right[at]) as i32);
-                let (part, light) =
-                    ((self.gap[at] * 256.0) as i32, (256.0 - (1.0 - BOUGH_SHADE) * 256.0 * self.wood[at]) as i32);
-                changes[usize::from(self.away[at])].push(Change { at: self.at[at], behind, part, light });
+            if self.gap[at] + self.wood[at] > 0.0 {
+                let part = (self.gap[at] * 256.0) as i32;
+                let light = (256.0 - (1.0 - BOUGH_SHADE) * 256.0 * self.wood[at]) as i32;
+                let change = Change { at: self.at[at], behind: self.behind[at], part, light };
+                changes[usize::from(self.away[at])].push(change);
             }
         }
     }
