@@ -1,10 +1,12 @@
 //! Light that stays in place: how much sky the ground sees, and how much lamps give, on a coarse grid over the town.
 
+use crate::ground_kinds::GroundKinds;
 use crate::parts::{Cluster, SceneBox};
-use crate::pattern::{blend, fixed_size, floor_int, four_bytes, least, lerp, most, nearest_index, share};
+use crate::pattern::{blend, draw, fixed_size, floor_int, four_bytes, hash, least, lerp, most, nearest_index, share};
 use crate::thing_tints::bulb;
 use cosfly_domain::ObstacleKind;
-use cosfly_frames::DVec3;
+use cosfly_frames::{DVec2, DVec3};
+use std::collections::BTreeSet;
 
 /// Most cells along one side.
 const MAX_CELLS: usize = 508;
@@ -12,6 +14,11 @@ const MAX_CELLS: usize = 508;
 const TABLE_SIDE: usize = 512;
 /// Distances to walls are told up to this, metres.
 pub const FAR_FROM_WALLS_M: f32 = 6.0;
+/// Lamps that no map tells of stand about this far apart, metres, and at most this far from a building.
+const UNTOLD_LAMPS_M: f64 = 18.0;
+const BESIDE_BUILDINGS_M: f64 = 15.0;
+/// Places that are tried for each.
+const TRIED: u32 = 12;
 /// Lamp light of a byte's step.
 const LAMP_STEP: f32 = 1.0 / 64.0;
 
@@ -100,8 +107,8 @@ impl GridFrame {
 }
 
 impl LightGrid {
-    /// Measures the town.
-    pub fn new(boxes: &[SceneBox], clusters: &[Cluster]) -> Self {
+    /// Measures the town, whose ground is paved where `ground` says.
+    pub fn new(boxes: &[SceneBox], clusters: &[Cluster], ground: &GroundKinds) -> Self {
         let mut low = DVec3::INFINITY;
         let mut high = DVec3::NEG_INFINITY;
         for (center, half) in boxes
@@ -130,8 +137,11 @@ impl LightGrid {
         };
         grid.measure_ground(clusters, boxes);
         grid.measure_sky(boxes);
-        grid.add_lamps(boxes);
         grid.measure_walls(boxes);
+        match boxes.iter().any(|b| b.kind == ObstacleKind::Lamp) {
+            true => grid.add_lamps(boxes),
+            false => grid.add_untold_lamps(boxes, ground),
+        }
         grid.pack();
         grid
     }
@@ -309,27 +319,56 @@ impl LightGrid {
         }
     }
 
-    /// Every lamp lights the ground around it like a bulb at its top.
+    /// Every lamp lights the ground around it.
     fn add_lamps(&mut self, boxes: &[SceneBox]) {
-        let radius = (22.0 * self.cells_per_m) as usize + 1;
         let mut last = None;
         for b in boxes.iter().filter(|b| b.kind == ObstacleKind::Lamp) {
             // A lamp of several boxes shines once, from where its last box is.
-            if last.replace(b.instance) == Some(b.instance) {
-                continue;
+            if last.replace(b.instance) != Some(b.instance) {
+                self.add_lamp(self.cell_of(b.center_in_world), bulb(b.seed));
             }
-            let cell = self.cell_of(b.center_in_world);
-            let (column, row) = (cell % self.columns, cell / self.columns);
-            let strength = bulb(b.seed);
-            for y in row.saturating_sub(radius)..(row + radius + 1).min(self.rows) {
-                for x in column.saturating_sub(radius)..(column + radius + 1).min(self.columns) {
-                    let (dx, dy) = (x as f32 - column as f32, y as f32 - row as f32);
-                    let far = (dx * dx + dy * dy) / (self.cells_per_m * self.cells_per_m);
-                    let height = 5.5f32;
-                    let fall = height * height / (height * height + far);
-                    let edge = (1.0 - far / 484.0).max(0.0);
-                    self.cells[y * self.columns + x].lamps += strength * fall * fall * edge;
+        }
+    }
+
+    /// Lights paved ground beside buildings in a town whose map tells of no lamp at all: a real one is not dark there.
+    fn add_untold_lamps(&mut self, boxes: &[SceneBox], ground: &GroundKinds) {
+        let apart_m = UNTOLD_LAMPS_M.max(4.0 / f64::from(self.cells_per_m));
+        let square = |m: f64| (m / apart_m).floor() as i64;
+        let reach = DVec3::splat(BESIDE_BUILDINGS_M);
+        let mut squares = BTreeSet::new();
+        for b in boxes.iter().filter(|b| b.kind == ObstacleKind::Building) {
+            let half = b.half_bounds_m + reach;
+            if (b.center_in_world + half).is_finite() {
+                let [low, high] = [b.center_in_world - half, b.center_in_world + half];
+                for x in square(low.x)..=square(high.x) {
+                    squares.extend((square(low.y)..=square(high.y)).map(|y| (x, y)));
                 }
+            }
+        }
+        for (x, y) in squares {
+            let seed = hash(x as u32, y as u32);
+            let along = |square: i64, index| apart_m * (square as f64 + f64::from(draw(seed, index)));
+            let mut tried = (0..TRIED).map(|k| DVec2::new(along(x, 2 * k), along(y, 2 * k + 1)));
+            let is_street =
+                |place: &DVec2| ground.is_paved(*place) && self.cells[self.cell_of(place.extend(0.0))].wall_m > 0.5;
+            if let Some(place) = tried.find(is_street) {
+                self.add_lamp(self.cell_of(place.extend(0.0)), bulb(hash(seed, 1)));
+            }
+        }
+    }
+
+    /// Lights the ground around a cell like a bulb above it.
+    fn add_lamp(&mut self, cell: usize, strength: f32) {
+        let radius = (22.0 * self.cells_per_m) as usize + 1;
+        let (column, row) = (cell % self.columns, cell / self.columns);
+        for y in row.saturating_sub(radius)..(row + radius + 1).min(self.rows) {
+            for x in column.saturating_sub(radius)..(column + radius + 1).min(self.columns) {
+                let (dx, dy) = (x as f32 - column as f32, y as f32 - row as f32);
+                let far = (dx * dx + dy * dy) / (self.cells_per_m * self.cells_per_m);
+                let height = 5.5f32;
+                let fall = height * height / (height * height + far);
+                let edge = (1.0 - far / 484.0).max(0.0);
+                self.cells[y * self.columns + x].lamps += strength * fall * fall * edge;
             }
         }
     }

@@ -256,7 +256,7 @@ mod tests {
     fn a_manhole_changes_no_place_beside_it() {
         let place = |k: usize| [0.7 * (k % 200) as f32, 0.9 * (k / 200) as f32];
         let lid = (0..40_000).map(place).find(|[x, y]| to_manhole(*x, *y) < 0.3).unwrap();
-        let (grid, noise) = (LightGrid::new(&[], &[]), noise_texture(3));
+        let (grid, noise) = (LightGrid::new(&[], &[], &crate::ground_kinds::GroundKinds::default()), noise_texture(3));
         let mut far = (0..40_000).map(place).filter(|[x, y]| to_manhole(*x, *y) > 3.0);
         for _ in 0..60 {
             let mut places: [[f32; 2]; WIDE] = core::array::from_fn(|_| far.next().unwrap());

@@ -128,7 +128,7 @@ impl Scene {
         boxes.iter_mut().zip(sides).for_each(|(b, sides)| b.roof_goes_on = sides);
         let clusters = clusters_of(town);
         let noise = noise_texture(look_seed);
-        let grid = LightGrid::new(&boxes, &clusters);
+        let grid = LightGrid::new(&boxes, &clusters, &ground);
         let season = cosfly_materials::season::of_town(look_seed);
         let outskirts = Outskirts::of(&grid, season);
         cut_to_drawn(&mut boxes, &ground);

@@ -4,13 +4,13 @@ mod small_town;
 
 use cosfly_domain::FrameImages;
 use cosfly_domain::{
-    Camera, Obstacle, ObstacleKind, OrientedBox, PixelBox, SemanticLabel, SurfaceMesh, TARGET_INSTANCE, TargetView,
-    Town, Weather,
+    Camera, Obstacle, ObstacleKind, OrientedBox, PixelBox, Season, SemanticLabel, SurfaceMesh, TARGET_INSTANCE,
+    TargetView, Town, Weather,
 };
 use cosfly_figures::{BodyShape, Walker, walker_triangles};
 use cosfly_frames::{DVec3, Pose, RandomStream, Seed, TargetState};
 use cosfly_models::{Model, ModelFit, ModelKind};
-use cosfly_render::{FrameSetup, Renderer, Scene, SceneModel};
+use cosfly_render::{FrameSetup, PictureLook, Renderer, Scene, SceneModel};
 
 fn noon() -> Weather {
     Weather { sun_azimuth_angle: 200.0, ..cosfly_materials::presets::preset("ClearNoon").expect("a preset") }
@@ -113,6 +113,111 @@ fn random_scene(random: &mut RandomStream) -> Town {
     }
     town.surfaces.push(terrain);
     town
+}
+
+/// Level ground with nine trees on it, each a trunk below a crown.
+fn trees_on(ground: SemanticLabel) -> Town {
+    let mut town = small_town::empty_town();
+    let mut put = |kind, object_id, center_in_world, half_extents_m| {
+        let shape = OrientedBox { center_in_world, half_extents_m, yaw_rad: 0.3 };
+        town.obstacles.push(Obstacle { shape, kind, object_id, synthetic: true });
+    };
+    for tree in 0..9u32 {
+        let at = DVec3::new(12.0 * f64::from(tree % 3) - 12.0, 12.0 * f64::from(tree / 3) - 12.0, 0.0);
+        put(ObstacleKind::TreeTrunk, 2 * tree, at + DVec3::new(0.0, 0.0, 1.5), DVec3::new(0.2, 0.2, 1.5));
+        put(ObstacleKind::TreeCrown, 2 * tree + 1, at + DVec3::new(0.0, 0.0, 5.5), DVec3::new(2.5, 2.5, 2.5));
+    }
+    let corners = [[-200.0, -200.0], [200.0, -200.0], [200.0, 200.0], [-200.0, 200.0]];
+    town.surfaces.push(SurfaceMesh {
+        label: ground,
+        vertices_in_world: corners.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec(),
+        along_across_m: vec![],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        synthetic: true,
+    });
+    town
+}
+
+#[test]
+fn bare_crowns_are_open_in_colours_and_whole_in_depth_and_labels() {
+    let camera = camera(480, 300);
+    let scene = |ground, season| Scene::new(&trees_on(ground), Seed([1; 32])).in_season(Some(season));
+    let [road, pavement] = [SemanticLabel::Roads, SemanticLabel::SideWalks]
+        .map(|ground| [Season::Summer, Season::Winter].map(|season| scene(ground, season)));
+    let images = |scene: &Scene, pose, look| {
+        let mut renderer = Renderer::new(camera);
+        renderer.set_look(look);
+        renderer.render(scene, &FrameSetup { pose, weather: &noon(), target: None, others: &[] }).images.clone()
+    };
+    for far_m in [14.0, 24.0, 40.0] {
+        let pose = Pose {
+            position_in_world: DVec3::new(-far_m, 0.0, 5.0 + 0.7 * far_m),
+            pitch_rad: -0.61,
+            yaw_rad: 0.0,
+            roll_rad: 0.0,
+        };
+        // Rays of visibility meet the whole crown, as depth and labels do.
+        let [compared, off, wrong] = compare(&road[1], camera, pose, None, 7);
+        assert!(off <= compared / 500 && wrong <= compared / 500, "{off} and {wrong} of {compared}");
+        let drawn = |scenes: &[Scene; 2], season: usize, look| images(&scenes[season], pose, look);
+        // How much of the ground's colour crowns let through.
+        let open = |season, look| {
+            let [one, other] = [&road, &pavement].map(|scenes| drawn(scenes, season, look));
+            let change = |is_crown: bool| {
+                let label = |at: &usize| (one.semantic[*at] == SemanticLabel::Vegetation.id()) == is_crown;
+                let pixels = (0..one.semantic.len()).filter(|at| one.semantic[*at] != SemanticLabel::Sky.id());
+                let changes =
+                    pixels.filter(label).map(|at| f64::from(one.rgb[3 * at + 1].abs_diff(other.rgb[3 * at + 1])));
+                let (sum, count) = changes.fold((0.0, 0.0), |(sum, count), change| (sum + change, count + 1.0));
+                sum / count
+            };
+            (change(true) / change(false), one)
+        };
+        let [(leaves, summer), (bare, winter)] = [0, 1].map(|season| open(season, PictureLook::Full));
+        let (simple, simple_winter) = open(1, PictureLook::Simple);
+        for other in [&summer, &simple_winter] {
+            let same = winter.semantic == other.semantic && winter.instance == other.instance;
+            assert!(same && winter.depth_m == other.depth_m, "{far_m} m away");
+        }
+        assert!((0.2..0.7).contains(&bare), "{bare} of a bare crown is open, {far_m} m away");
+        assert!(leaves < 0.5 * bare, "{leaves} of a crown with leaves is open, {bare} of a bare one, {far_m} m away");
+        // The simple look has crowns of one colour each.
+        assert!(simple < 0.02, "{simple}");
+    }
+}
+
+#[test]
+fn streets_of_a_town_whose_map_has_no_lamps_are_not_dark_at_night() {
+    let mut town = trees_on(SemanticLabel::Roads);
+    let mut put = |kind, object_id, center_in_world, half_extents_m| {
+        let shape = OrientedBox { center_in_world, half_extents_m, yaw_rad: 0.0 };
+        town.obstacles.push(Obstacle { shape, kind, object_id, synthetic: true });
+    };
+    put(ObstacleKind::Building, 90, DVec3::new(35.0, 0.0, 4.0), DVec3::new(10.0, 40.0, 4.0));
+    let unlit = town.clone();
+    // One lamp far away: the map tells of lamps, and there is none here.
+    town.obstacles.push(Obstacle {
+        shape: OrientedBox {
+            center_in_world: DVec3::new(-190.0, 190.0, 3.0),
+            half_extents_m: DVec3::new(0.1, 0.1, 3.0),
+            yaw_rad: 0.0,
+        },
+        kind: ObstacleKind::Lamp,
+        object_id: 91,
+        synthetic: true,
+    });
+    let night = cosfly_materials::presets::preset("ClearNight").expect("a preset");
+    let pose = Pose { position_in_world: DVec3::new(-20.0, 0.0, 30.0), pitch_rad: -0.8, yaw_rad: 0.0, roll_rad: 0.0 };
+    let [without, elsewhere] = [&unlit, &town].map(|town| {
+        let mut renderer = Renderer::new(camera(320, 200));
+        let setup = FrameSetup { pose, weather: &night, target: None, others: &[] };
+        let images = &renderer.render(&Scene::new(town, Seed([1; 32])), &setup).images;
+        let road = (0..images.semantic.len()).filter(|at| images.semantic[*at] == SemanticLabel::Roads.id());
+        let mut light: Vec<u8> = road.map(|at| images.rgb[3 * at + 1]).collect();
+        light.sort_unstable();
+        f64::from(light[light.len() * 9 / 10])
+    });
+    assert!(without > 1.3 * elsewhere, "{without} in a town without lamps, {elsewhere} far from the lamp of another");
 }
 
 #[test]

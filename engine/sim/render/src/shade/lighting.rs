@@ -357,7 +357,8 @@ mod tests {
 
     /// What a coat 1 m above open ground mirrors, by its normal and the ray that meets it: its light and share.
     fn coat(light: &Light, normal: Vec3, ray: Vec3) -> (Vec3, f32) {
-        let (grid, noise) = (LightGrid::new(&[], &[]), noise_texture(1));
+        let (grid, noise) =
+            (LightGrid::new(&[], &[], &cosfly_materials::ground_kinds::GroundKinds::default()), noise_texture(1));
         let mut shared = Shared::EMPTY;
         set(&mut shared.normal, 0, normal);
         set(&mut shared.ray, 0, ray);
