@@ -272,14 +272,35 @@ simd_kernel! {
                     *ragged = raggedness(place, normal, shift, shared.footprint_m[k], noise);
                 }
                 let rays = crowns.clumps(group, block, eye, &mut nearest);
-                for (k, ragged) in nearest.ragged.into_iter().enumerate() {
-                    let (place, crown) = (get(&block.world, k), crowns.on_map(group, k));
-                    let (nearest, ray, round) = (nearest.at(k), rays.at(k), get(&block.normal, k));
-                    let place_on = place - three_of(&crowns.middle, group, k);
-                    let seen = OnClump { nearest, ray, round, place: place_on };
-                    let (look, aside) = look(&seen, &crown, shared.footprint_m[k], ragged, noise);
-                    block.put_bent(k, &look);
-                    set(&mut block.world, k, place + off_crown + aside * ASIDE_M);
+                // Noise is scattered over memory: it is read between vector code.
+                let (mut spots, mut grains) = ([[0.0; WIDE]; 5], [[0.0; WIDE]; 2]);
+                for k in 0..WIDE {
+                    let (seen, crown) = (crowns.on_clump(group, k, block, &nearest, &rays), crowns.on_map(group, k));
+                    let spot = spot(&seen, &crown, shared.footprint_m[k], nearest.ragged[k]);
+                    for (lane, number) in spots.iter_mut().zip(spot) {
+                        lane[k] = number;
+                    }
+                }
+                for k in 0..WIDE {
+                    let [big, small] = grain(core::array::from_fn(|number| spots[number][k]), noise);
+                    (grains[0][k], grains[1][k]) = (big, small);
+                }
+                let (mut looks, mut aside) = ([[0.0; WIDE]; 7], [[0.0; WIDE]; 3]);
+                for k in 0..WIDE {
+                    let (seen, crown) = (crowns.on_clump(group, k, block, &nearest, &rays), crowns.on_map(group, k));
+                    let (look, turn) = look(&seen, &crown, nearest.ragged[k], spots[4][k], [grains[0][k], grains[1][k]]);
+                    let Look { albedo, normal, openness, .. } = look;
+                    let all = [albedo.x, albedo.y, albedo.z, normal.x, normal.y, normal.z, openness];
+                    for (lane, number) in looks.iter_mut().zip(all) {
+                        lane[k] = number;
+                    }
+                    set(&mut aside, k, turn * ASIDE_M);
+                }
+                for k in 0..WIDE {
+                    let [r, g, b, x, y, z, openness] = core::array::from_fn(|number| looks[number][k]);
+                    block.put_bent(k, &Look { openness, ..Look::matt(Vec3::new(r, g, b), Vec3::new(x, y, z)) });
+                    let place = get(&block.world, k);
+                    set(&mut block.world, k, place + off_crown + get(&aside, k));
                 }
             }
         }
@@ -319,6 +340,19 @@ struct OnClump {
 }
 
 impl Crowns {
+    #[inline(always)]
+    fn on_clump(
+        &self,
+        group: usize,
+        k: usize,
+        block: &Block,
+        nearest: &NearestClumps,
+        rays: &CrownRays<WIDE>,
+    ) -> OnClump {
+        let place = get(&block.world, k) - three_of(&self.middle, group, k);
+        OnClump { nearest: nearest.at(k), ray: rays.at(k), round: get(&block.normal, k), place }
+    }
+
     #[inline(always)]
     fn on_map(&self, group: usize, k: usize) -> OnMap {
         let [tint, half, shrink] = [&self.tint, &self.half, &self.shrink].map(|rows| three_of(rows, group, k));
@@ -373,26 +407,49 @@ fn raggedness(place: Vec3, normal: Vec3, shift: f32, size: f32, noise: &NoiseTex
     0.5 * (noise.rough(u + shift, v - shift, 1.5 * size * PER_M) - 0.5)
 }
 
-/// The look of a place on a clump. Patterns lie on each clump as seen from outside. Also the way that its leaves are turned.
+/// Where a place on a clump lies, from the middle of the clump, the way out of the clump, and where it meets the ray. Beyond the edges of
+/// clumps, patterns lie on the round crown: nothing is drawn out long there.
 #[inline(always)]
-fn look(seen: &OnClump, crown: &OnMap, size: f32, ragged: f32, noise: &NoiseTexture) -> (Look, Vec3) {
-    let OnClump { nearest, ray, round, place } = seen;
-    let (met, bare) = (nearest.place(*ray), 1.0 - crown.through);
-    // Beyond the edges of clumps, patterns lie on the round crown: nothing is drawn out long there.
-    let passed = one_if(nearest.met < 0.0);
-    let on_clump = crown.back(met - nearest.middle).lerp(*place * crown.shrink, passed);
-    let out = (on_clump * crown.shrink).unit();
+fn on_clump(seen: &OnClump, crown: &OnMap) -> [Vec3; 3] {
+    let met = seen.nearest.place(seen.ray);
+    let on_clump =
+        crown.back(met - seen.nearest.middle).lerp(seen.place * crown.shrink, one_if(seen.nearest.met < 0.0));
+    [on_clump, (on_clump * crown.shrink).unit(), met]
+}
+
+/// How fine the smaller pattern is.
+#[inline(always)]
+fn fineness(through: f32) -> f32 {
+    lerp(0.85, 1.0, through)
+}
+
+/// Where the patterns of a place on a clump are read: two coordinates, how far apart from other clumps, how fine the smaller pattern
+/// is, and the size of a pixel there. Patterns lie on each clump as seen from outside.
+#[inline(always)]
+fn spot(seen: &OnClump, crown: &OnMap, size: f32, ragged: f32) -> [f32; 5] {
+    let [on_clump, out, met] = on_clump(seen, crown);
     // Where sides of a clump meet, leaves hide the seam.
     let (u, v) = facing(on_clump * crown.half * PER_M, out + Vec3::new(ragged, -ragged, 0.0) * 2.0);
     // Sides of clumps that the eye sees at a slant are finer.
-    let radius = met - nearest.middle;
-    let slant = most(share(nearest.met / (radius.dot(radius) + 1e-6)), 0.5 * passed);
-    let size = size / most(slant.sqrt(), 0.4);
-    let apart = crown.shift + 60.0 * (nearest.middle.x + nearest.middle.y);
-    let clear = share(1.0 + 12.0 * nearest.met);
+    let radius = met - seen.nearest.middle;
+    let passed = one_if(seen.nearest.met < 0.0);
+    let slant = most(share(seen.nearest.met / (radius.dot(radius) + 1e-6)), 0.5 * passed);
+    let apart = crown.shift + 60.0 * (seen.nearest.middle.x + seen.nearest.middle.y);
+    [u, v, apart, fineness(crown.through), size / most(slant.sqrt(), 0.4)]
+}
+
+/// The patterns at a [`spot`], from -0.5 to 0.5.
+#[inline(always)]
+fn grain([u, v, apart, fine, size]: [f32; 5], noise: &NoiseTexture) -> [f32; 2] {
     let big = noise.rough(u + apart, v - apart, 1.7 * size * PER_M) - 0.5;
-    let fine = lerp(0.85, 1.0, crown.through);
-    let small = noise.grain(u * fine, v * fine, 1.7 * size * PER_M * fine) - 0.5;
+    [big, noise.grain(u * fine, v * fine, 1.7 * size * PER_M * fine) - 0.5]
+}
+
+/// The look of a place on a clump where a pixel has the size `size`, and the way that its leaves are turned.
+#[inline(always)]
+fn look(seen: &OnClump, crown: &OnMap, ragged: f32, size: f32, [big, small]: [f32; 2]) -> (Look, Vec3) {
+    let ([_, out, met], bare, round) = (on_clump(seen, crown), 1.0 - crown.through, seen.round);
+    let (clear, fine) = (share(1.0 + 12.0 * seen.nearest.met), fineness(crown.through));
     // Leaves have edges: light ones before dark gaps.
     let leaf = share(0.5 + small * (4.0 - 3.0 * share(size * PER_M * fine - 0.25))) - 0.5;
     // Twigs are lines, level sets of the same noise, with what lies below the crown between them; they fade where a
@@ -402,7 +459,7 @@ fn look(seen: &OnClump, crown: &OnMap, size: f32, ragged: f32, noise: &NoiseText
     // Every twig of leaves faces its own way.
     let turn = Vec3::new(2.0 * ragged - big, 2.0 * ragged + leaf, big + ragged);
     let bent =
-        (out.lerp(*round, 0.5) + turn * 1.4 + Vec3::new(0.0, 0.0, 0.25)).lerp(Vec3::new(0.0, 0.0, 1.0), 0.6 * bare);
+        (out.lerp(round, 0.5) + turn * 1.4 + Vec3::new(0.0, 0.0, 0.25)).lerp(Vec3::new(0.0, 0.0, 1.0), 0.6 * bare);
     let outer = lerp(outwards(met) * lerp(0.5, 1.0, clear), 0.75, 0.7 * bare);
     let deep = smoothstep(-0.75, 1.15, 1.6 * outer - 0.8 + 2.7 * big + 1.1 * leaf * crown.through);
     // Light shines through leaves at the rim of a clump: they are yellower there.
@@ -457,7 +514,8 @@ mod tests {
             let from = turned(world + normal, crown.turn) * 0.5;
             let nearest = NearestClump { reach: 0.5, middle, met: 400.0 };
             let seen = OnClump { nearest, ray: CrownRay::new(from, up * -1.0), round: normal, place: world };
-            look(&seen, &crown, 0.02, 0.0, &noise).0.openness
+            let spot = spot(&seen, &crown, 0.02, 0.0);
+            look(&seen, &crown, 0.0, spot[4], grain(spot, &noise)).0.openness
         };
         // Mean change over a step along a face.
         let change = |normal: Vec3, step: Vec3, across: Vec3| {
