@@ -6,8 +6,8 @@ use cosfly_domain::SemanticLabel;
 
 /// Side of a cell, pixels.
 const CELL_PX: usize = 4;
-/// Pixels from one that counts to the next, along rows and columns.
-const STEP_PX: usize = 2;
+/// Pixels from one that counts to the next along rows, and from one row to the next.
+const STEP_PX: [usize; 2] = [2, 4];
 /// A cell counts in full when this share of its pixels shows the background.
 const FULL: f32 = 1.0;
 
@@ -82,10 +82,10 @@ impl Backdrop {
     pub fn of(rgb: &[u8], semantic: &[u8], width: usize) -> Self {
         let height = semantic.len() / width;
         let mut finest = Level::new(width.div_ceil(CELL_PX), height.div_ceil(CELL_PX));
-        for row in (0..height).step_by(STEP_PX) {
+        for row in (0..height).step_by(STEP_PX[1]) {
             let (rgb, semantic) = (&rgb[3 * row * width..][..3 * width], &semantic[row * width..][..width]);
             let cells = &mut finest.cells[row / CELL_PX * finest.width..][..finest.width];
-            for column in (0..width).step_by(STEP_PX) {
+            for column in (0..width).step_by(STEP_PX[0]) {
                 let (label, at) = (semantic[column], 3 * column);
                 if is_background(label) {
                     let sum = &mut cells[column / CELL_PX];
@@ -94,7 +94,7 @@ impl Backdrop {
                 }
             }
         }
-        let full = FULL * (CELL_PX / STEP_PX * CELL_PX / STEP_PX) as f32;
+        let full = FULL * (CELL_PX / STEP_PX[0] * CELL_PX / STEP_PX[1]) as f32;
         finest.cells.iter_mut().for_each(|sum| *sum = mean(*sum, full));
         let mut levels = vec![finest];
         while let Some(last) = levels.last()

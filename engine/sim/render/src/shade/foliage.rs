@@ -194,11 +194,16 @@ impl Picture<'_> {
         let (width, length) = (*width as usize, span.length as usize);
         let backdrop = self.backdrop.get_or_init(|| Backdrop::of(rgb, semantic, width));
         let (row, from) = (start / width, start % width);
+        let mut smooth = [0; 3];
         for k in 0..length {
             let pixel = start + k;
             let inside = 1.0 - (2.0 * (k as f32 + 0.5) / length as f32 - 1.0).abs();
             let pixel_m = self.view.pixel() * depth_m[pixel];
-            let mut behind = backdrop.at(from + k, row);
+            // It is smooth: one place serves two pixels.
+            if k % 2 == 0 {
+                smooth = backdrop.at(from + k, row);
+            }
+            let mut behind = smooth;
             // Near the edge, what lies beyond it is seen as it is, mirrored.
             let steps = k.min(length - 1 - k);
             let there = if steps == k { start.wrapping_sub(k + 1) } else { pixel + 2 * steps + 1 };
