@@ -285,20 +285,19 @@ simd_kernel! {
                     let [big, small] = grain(core::array::from_fn(|number| spots[number][k]), noise);
                     (grains[0][k], grains[1][k]) = (big, small);
                 }
-                let (mut looks, mut aside) = ([[0.0; WIDE]; 7], [[0.0; WIDE]; 3]);
+                let (mut albedo, mut bent, mut aside) = ([[0.0; WIDE]; 3], [[0.0; WIDE]; 3], [[0.0; WIDE]; 3]);
+                let mut openness = [0.0; WIDE];
                 for k in 0..WIDE {
                     let (seen, crown) = (crowns.on_clump(group, k, block, &nearest, &rays), crowns.on_map(group, k));
-                    let (look, turn) = look(&seen, &crown, nearest.ragged[k], spots[4][k], [grains[0][k], grains[1][k]]);
-                    let Look { albedo, normal, openness, .. } = look;
-                    let all = [albedo.x, albedo.y, albedo.z, normal.x, normal.y, normal.z, openness];
-                    for (lane, number) in looks.iter_mut().zip(all) {
-                        lane[k] = number;
-                    }
+                    let grains = [grains[0][k], grains[1][k]];
+                    let (look, turn) = look(&seen, &crown, nearest.ragged[k], spots[4][k], grains);
+                    set(&mut albedo, k, look.albedo);
+                    set(&mut bent, k, look.normal);
                     set(&mut aside, k, turn * ASIDE_M);
+                    openness[k] = look.openness;
                 }
-                for k in 0..WIDE {
-                    let [r, g, b, x, y, z, openness] = core::array::from_fn(|number| looks[number][k]);
-                    block.put_bent(k, &Look { openness, ..Look::matt(Vec3::new(r, g, b), Vec3::new(x, y, z)) });
+                for (k, openness) in openness.into_iter().enumerate() {
+                    block.put_bent(k, &Look { openness, ..Look::matt(get(&albedo, k), get(&bent, k)) });
                     let place = get(&block.world, k);
                     set(&mut block.world, k, place + off_crown + get(&aside, k));
                 }
