@@ -116,7 +116,7 @@ pub fn examine_given(
             texts.give(&mut episode);
         }
         if let Some(mesh) = mesh {
-            tally.flags.extend(checks::scan::check(&episode, mesh));
+            tally.flags.extend(checks::scan::check(&episode, mesh).into_iter().map(|flag| (String::new(), flag)));
         }
         tally.add(&episode);
     };
@@ -154,7 +154,10 @@ pub fn examine_given(
 /// Tally of the episodes: each is checked when it is read, and gone before the next.
 struct Tally<'a> {
     quotas: &'a [Quota],
-    flags: Vec<Flag>,
+    /// Flags of episodes, with the flights that they show.
+    flags: Vec<(String, Flag)>,
+    /// Flights whose target some film shows.
+    seen: BTreeSet<String>,
     traces: Vec<Trace>,
     frames: usize,
     visibility: [[usize; 2]; SHARES.len()],
@@ -180,6 +183,7 @@ impl<'a> Tally<'a> {
         Self {
             quotas,
             flags: vec![],
+            seen: BTreeSet::new(),
             traces: vec![],
             frames: 0,
             visibility: [[0; 2]; SHARES.len()],
@@ -192,7 +196,12 @@ impl<'a> Tally<'a> {
     /// Checks an episode and counts it.
     fn add(&mut self, episode: &ExaminedEpisode) {
         if !episode.moments.is_empty() {
-            self.flags.extend(checks::of_episode(episode));
+            let flags = checks::of_episode(episode);
+            let is_seen = episode.moments.iter().any(|it| it.visible.is_some());
+            if is_seen && flags.iter().all(|flag| flag.name != checks::LOST) {
+                self.seen.insert(episode.flight.clone());
+            }
+            self.flags.extend(flags.into_iter().map(|flag| (episode.flight.clone(), flag)));
         }
         self.texts.add(episode);
         self.traces.push(Trace::of(episode));
@@ -241,7 +250,11 @@ impl<'a> Tally<'a> {
     /// The examination, with flags of files and notes on checks that were impossible.
     fn summed(self, layout: Layout, flags_of_files: Vec<Flag>, notes: Vec<String>) -> Examination {
         let unchecked = [notes, self.unstated(layout)].concat();
-        let flags = [flags_of_files, self.flags, checks::leaks(&self.traces)].concat();
+        let is_of_another = |flight: &String, flag: &Flag| {
+            flag.name == checks::LOST && !flight.is_empty() && self.seen.contains(flight)
+        };
+        let flags = self.flags.into_iter().filter(|(flight, flag)| !is_of_another(flight, flag)).map(|(_, flag)| flag);
+        let flags = [flags_of_files, flags.collect(), checks::leaks(&self.traces)].concat();
         let mut worst: BTreeMap<&str, Severity> = BTreeMap::new();
         for flag in &flags {
             let severity = worst.entry(&flag.place).or_insert(flag.severity);

@@ -60,7 +60,18 @@ pub struct LossQuota {
 /// Reasons why items are left out, by name.
 pub type Verdict = BTreeMap<String, String>;
 
-/// An expert with its twins: kept or left out together.
+/// What the camera that sees most of a flight's target shows of it.
+#[derive(Clone, Debug, PartialEq)]
+struct View {
+    /// Mean share of the target that is visible.
+    visible: f64,
+    /// Times for which the target is lost, seconds.
+    losses_s: Vec<f64>,
+    /// Imperfection, where the target is seen too little.
+    imperfection: Option<String>,
+}
+
+/// An expert with its twins, in the films of all cameras and weathers: kept or left out together.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Family {
     /// Names of its items.
@@ -71,38 +82,54 @@ pub struct Family {
     imperfection: Option<String>,
     /// Losses of all members, seconds.
     losses_s: Vec<f64>,
+    /// Best view of each flight, until all films are there.
+    views: BTreeMap<String, View>,
     /// Difficulty of the expert.
     difficulty: Option<Difficulty>,
 }
 
 impl Family {
-    /// Adds what the checks find in a flight of the family.
+    /// Adds what the checks find in a film of the family. How much of the target is seen counts in the film that sees most of it: the other
+    /// cameras of a drone may look elsewhere.
     pub fn add(&mut self, episode: &ExaminedEpisode, config: &InspectConfig) {
+        let mut unseen = None;
         for flag in checks::of_episode(episode) {
             let reason = match flag.severity {
+                _ if flag.name == checks::LOST => &mut unseen,
                 Severity::Damage => &mut self.damage,
                 Severity::Imperfect => &mut self.imperfection,
             };
             reason.get_or_insert_with(|| flag.to_string());
         }
-        let losses = episode.losses_s();
-        let longest = losses.iter().copied().fold(0.0, f64::max);
+        let (id, losses_s) = (&episode.id, episode.losses_s());
+        let longest = losses_s.iter().copied().fold(0.0, f64::max);
         if longest > config.max_lost_s && !episode.is_perturbed {
-            let id = &episode.id;
-            self.imperfection.get_or_insert_with(|| format!("{id}: its target is lost for {longest:.1} s"));
+            unseen.get_or_insert_with(|| format!("{id}: its target is lost for {longest:.1} s"));
         }
         let shares = episode.moments.iter().filter_map(|it| it.visible);
-        let mean = shares.sum::<f64>() / episode.moments.len().max(1) as f64;
-        if mean < config.min_visibility && !episode.is_perturbed {
-            let id = &episode.id;
-            self.imperfection.get_or_insert_with(|| format!("{id}: {:.1} % of its target is visible", 100.0 * mean));
+        let visible = shares.sum::<f64>() / episode.moments.len().max(1) as f64;
+        if visible < config.min_visibility && !episode.is_perturbed {
+            unseen.get_or_insert_with(|| format!("{id}: {:.1} % of its target is visible", 100.0 * visible));
         }
-        self.losses_s.extend(losses);
+        let flight = if episode.flight.is_empty() { id } else { &episode.flight };
+        let best = self.views.get(flight).is_none_or(|best| best.visible < visible);
+        if best {
+            self.views.insert(flight.clone(), View { visible, losses_s, imperfection: unseen });
+        }
+    }
+
+    /// The family with the best views of its flights, when all films are there.
+    fn seen(mut self) -> Self {
+        for view in std::mem::take(&mut self.views).into_values() {
+            self.losses_s.extend(view.losses_s);
+            self.imperfection = self.imperfection.or(view.imperfection);
+        }
+        self
     }
 
     /// Adds the difficulty of a flight, if it is the expert.
     pub fn rate(&mut self, record: &RenderedTrajectory) {
-        if record.pair.is_none() {
+        if record.pair.is_none() && (self.difficulty.is_none() || record.every == 1) {
             self.difficulty = Some(difficulty(record));
         }
     }
@@ -124,7 +151,8 @@ impl Family {
 /// `inspect-quota`.
 pub fn verdict(families: BTreeMap<String, Family>, seed: Seed, config: &InspectConfig) -> Result<Decided> {
     let draw = |name: &str| seed.child(name, 0).stream("inspect").unit().to_bits();
-    let mut drawn: Vec<(u64, Family)> = families.into_iter().map(|(name, family)| (draw(&name), family)).collect();
+    let mut drawn: Vec<(u64, Family)> =
+        families.into_iter().map(|(name, family)| (draw(&name), family.seen())).collect();
     drawn.sort_by_key(|(draw, _)| *draw);
     let families: Vec<Family> = drawn.into_iter().map(|(_, family)| family).collect();
     let verdict = decide(&families, config)?;
@@ -212,6 +240,8 @@ fn decide(families: &[Family], config: &InspectConfig) -> Result<Verdict> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cosfly_episodes::ExaminedMoment;
+    use cosfly_frames::{DVec3, Pose};
 
     fn families(count: usize, change: impl Fn(usize, &mut Family)) -> Vec<Family> {
         let one = |at: usize| {
@@ -220,6 +250,42 @@ mod tests {
             family
         };
         (0..count).map(one).collect()
+    }
+
+    /// A film of ten frames that show `visible` of the target.
+    fn film(id: &str, flight: &str, visible: f64) -> ExaminedEpisode {
+        let pose = Pose { position_in_world: DVec3::Z * 20.0, pitch_rad: -0.5, yaw_rad: 0.0, roll_rad: 0.0 };
+        let moment = |at: u32| ExaminedMoment {
+            time_s: 0.5 * f64::from(at),
+            drone: pose,
+            camera: pose,
+            next_in_world: None,
+            turn_deg: None,
+            target_in_world: None,
+            heading_and_speed: None,
+            in_image: None,
+            visible_box: None,
+            visible: Some(visible),
+            clearance_m: None,
+        };
+        let moments = (0..10).map(moment).collect();
+        ExaminedEpisode { id: id.into(), flight: flight.into(), dt_s: 0.5, moments, ..ExaminedEpisode::default() }
+    }
+
+    #[test]
+    fn a_camera_that_looks_elsewhere_loses_no_target() {
+        let config = InspectConfig { min_visibility: 0.8, max_lost_s: 2.0, ..InspectConfig::default() };
+        let imperfection = |films: &[ExaminedEpisode]| {
+            let mut family = Family::default();
+            films.iter().for_each(|film| family.add(film, &config));
+            family.seen().imperfection
+        };
+        let (front, down) = (film("e0-front", "e0", 0.9), film("e0-down", "e0", 0.0));
+        assert_eq!(imperfection(&[front.clone(), down.clone()]), None);
+        assert_eq!(imperfection(&[down.clone(), front]), None);
+        let lost = imperfection(&[down.clone(), film("e0-tele", "e0", 0.1)]).unwrap();
+        assert!(lost.starts_with("e0-tele: less than half of the target is visible in 10 of 10 frames"), "{lost}");
+        assert!(imperfection(&[down, film("e1-front", "e1", 0.9)]).is_some(), "another flight sees another target");
     }
 
     #[test]

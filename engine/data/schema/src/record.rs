@@ -177,6 +177,13 @@ impl RenderedTrajectory {
         FrameTimes { begins_ns: self.begins_ns, dt_s: self.dt_s() }
     }
 
+    /// Id of the expert's flight; of an expert its own.
+    pub fn flight_of_expert(&self) -> &str {
+        let Some(pair) = &self.pair else { return &self.flight_id };
+        let film = self.trajectory_id.strip_prefix(&self.flight_id).unwrap_or_default();
+        pair.expert_id.strip_suffix(film).unwrap_or(&pair.expert_id)
+    }
+
     /// Pose of the camera in a frame.
     pub fn camera_pose(&self, frame: usize) -> Pose {
         self.mount.camera_pose(&self.trajectory.poses_in_world[frame])

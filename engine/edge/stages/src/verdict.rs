@@ -24,7 +24,7 @@ const NAME: &str = "verdict";
 pub fn part(config: InspectConfig) -> StagePart {
     let doc = "The rendered flights.";
     let properties = StageProperties {
-        version: 2,
+        version: 3,
         parameters: parameters::canonical(&config),
         inputs: vec![ports::town(), ports::without_pictures(ports::gather("frames", FRAMES, false, doc))],
         bytes_per_item: 10_000,
@@ -63,8 +63,7 @@ impl Stage for VerdictStage {
             let record = RenderedTrajectory::from_bytes(&inputs.read(artifact, "index")?)?;
             let mut episode = sources::record::episode(&record);
             episode.vehicles.clone_from(&vehicles);
-            let expert = record.pair.as_ref().map_or(&record.trajectory_id, |pair| &pair.expert_id);
-            let family = families.entry(expert.clone()).or_default();
+            let family = families.entry(record.flight_of_expert().to_owned()).or_default();
             family.items.push(artifact.name.to_string());
             family.add(&episode, &self.config);
             family.rate(&record);

@@ -351,7 +351,7 @@ mod tests {
             roll_rad: if k.is_multiple_of(2) { 0.1 } else { -0.1 },
         };
         let flight = flight((0..8).map(pose).collect());
-        let mut shooting = Shooting::plain(Seed::from_recipe(1));
+        let mut shooting = Shooting::plain(Seed::of_item(1, "pedestrians", "p00000"));
         shooting.mount = Mount { pitch_rad: -1.05, levelled: false, ..Mount::default() };
         let film = FilmedFlight::new(&shooting, &flight, &every(1));
         // Angles of the camera jump between the first two frames, by more than a quarter of a turn: it looks past straight down.

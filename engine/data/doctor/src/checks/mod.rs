@@ -20,6 +20,7 @@ pub(crate) mod words;
 
 pub use extent::of_towns as extent;
 pub use leaks::{Trace, of_all as leaks};
+pub use surroundings::LOST;
 
 use cosfly_episodes::{ExaminedEpisode, Flag};
 

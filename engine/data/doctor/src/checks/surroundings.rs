@@ -4,6 +4,9 @@ use cosfly_diagnose::counted;
 use cosfly_episodes::{ExaminedEpisode, Flag};
 use cosfly_frames::real;
 
+/// Name of the flag of a film that hardly shows its target. Where cameras film a flight together, one of them may look elsewhere: the flag
+/// counts where all have it.
+pub const LOST: &str = "mostly-lost";
 /// Share of frames with less than half of the target visible from which a flight is imperfect.
 const MOSTLY_LOST: f64 = 0.5;
 
@@ -46,5 +49,5 @@ fn lost(episode: &ExaminedEpisode) -> Option<Flag> {
     let lost = stated.iter().filter(|share| **share < 0.5).count();
     let is_lost = !stated.is_empty() && lost as f64 > MOSTLY_LOST * stated.len() as f64;
     let message = || format!("less than half of the target is visible in {lost} of {} frames", stated.len());
-    is_lost.then(|| Flag::imperfect("mostly-lost", &episode.id, message()))
+    is_lost.then(|| Flag::imperfect(LOST, &episode.id, message()))
 }
