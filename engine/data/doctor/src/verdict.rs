@@ -60,7 +60,7 @@ pub struct LossQuota {
 /// Reasons why items are left out, by name.
 pub type Verdict = BTreeMap<String, String>;
 
-/// What the camera that sees most of a flight's target shows of it.
+/// View of a flight's target from the camera that sees most of it.
 #[derive(Clone, Debug, PartialEq)]
 struct View {
     /// Mean share of the target that is visible.
