@@ -170,7 +170,7 @@ function showPlaces() {
   const flights = beside ? [flight, beside] : [flight];
   map.show(flight.boxesOfTown, flights, flight.bodies);
   if (!$("scene").hidden) scene.show(flight.boxesOfTown, flights, flight.bodies);
-  if (map.paths && flight.town !== state.pathsOf) showPaths();
+  if (isPressed($("all")) && !(map.paths && flight.town === state.pathsOf)) showPaths();
 }
 
 // All flights of the town that is shown.
