@@ -196,16 +196,7 @@ def fitted(found, wanted, seed):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("out", type=pathlib.Path)
-    parser.add_argument("work", type=pathlib.Path)
-    parser.add_argument("--cosfly", default="cosfly", help="the program (default: cosfly)")
-    parser.add_argument("--store", help="folder of the store, as for `cosfly run`")
-    parser.add_argument("--suites", nargs="+", default=SUITES, help="suites whose walks are drawn anew, never those of the judge")
-    parser.add_argument("--seed", type=int, default=7001, help="seed of these walks and of the network (default: 7001)")
-    given = parser.parse_args()
-    if given.work.exists() and any(given.work.iterdir()):
-        parser.error(f"{given.work} is not empty; give a new folder")
-    given.work.mkdir(parents=True, exist_ok=True)
+    given = tools.flown_anew(parser, SUITES)
     store, began, eyes, parts = ["--store", given.store] if given.store else [], time.time(), Eyes(), []
     policy = ["--policy", f"onnx:{HERE.parent / 'policies/follow_law.onnx'}", "--expert-share", "0", "--round", "law"]
     keep = ["--keep", ",".join(SEEN), "--size-px", SIZE_PX]

@@ -287,17 +287,8 @@ def fitted(x, y, seed):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("kind", choices=KINDS)
-    parser.add_argument("out", type=pathlib.Path)
-    parser.add_argument("work", type=pathlib.Path)
-    parser.add_argument("--cosfly", default="cosfly")
-    parser.add_argument("--store")
     parser.add_argument("--rounds", type=tools.counted, default=3)
-    parser.add_argument("--suites", nargs="+", default=SUITES, help="suites whose walks are drawn anew, never those of the judge")
-    parser.add_argument("--seed", type=int, default=7001, help="seed of these walks and of the network")
-    given = parser.parse_args()
-    if given.work.exists() and any(given.work.iterdir()):
-        parser.error(f"{given.work} is not empty; give a new folder")
-    given.work.mkdir(parents=True, exist_ok=True)
+    given = tools.flown_anew(parser, SUITES)
     store = ["--store", given.store] if given.store else []
     kept, began = KINDS[given.kind][1], time.time()
     keep = ["--keep", ",".join(kept), "--size-px", str(SIZE_PX)] if kept else []

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import pathlib
 import subprocess
 import sys
 from typing import Any, Callable, List
@@ -30,6 +31,21 @@ def counted(text: str) -> int:
     if not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"`{text}` is no whole number from 1 on")
     return int(text)
+
+
+def flown_anew(parser: argparse.ArgumentParser, suites: List[str]) -> argparse.Namespace:
+    """The command line of a script that learns from flights over new walks of suites: the file that it writes, and a new folder for its work."""
+    parser.add_argument("out", type=pathlib.Path)
+    parser.add_argument("work", type=pathlib.Path)
+    parser.add_argument("--cosfly", default="cosfly", help="the program (default: cosfly)")
+    parser.add_argument("--store", help="folder of the store, as for `cosfly run`")
+    parser.add_argument("--suites", nargs="+", default=suites, help="suites whose walks are drawn anew, never those of the judge")
+    parser.add_argument("--seed", type=int, default=7001, help="seed of these walks and of the network (default: 7001)")
+    given = parser.parse_args()
+    if given.work.exists() and any(given.work.iterdir()):
+        parser.error(f"{given.work} is not empty; give a new folder")
+    given.work.mkdir(parents=True, exist_ok=True)
+    return given
 
 
 def cosfly(command: List[Any], **options: Any) -> subprocess.CompletedProcess:

@@ -145,12 +145,14 @@ impl Film<'_> {
     /// own time alone where all rows are taken at once.
     pub fn sights(&self, frame: usize, instance: u32, space: &Body) -> Vec<(Pose, Body)> {
         let half_s = 0.5 * self.flight.readout_s;
-        let moments_s: &[f64] = if half_s > 0.0 { &[-half_s, 0.0, half_s] } else { &[0.0] };
+        if half_s == 0.0 {
+            return self.frames.get(frame).map(|row| (row.camera_pose, space.clone())).into_iter().collect();
+        }
         let sight = |offset_s: &f64| {
             let feet = self.body(instance, frame, *offset_s)?.0;
             Some((self.pose(frame, *offset_s)?, Body { feet, ..space.clone() }))
         };
-        moments_s.iter().filter_map(sight).collect()
+        [-half_s, 0.0, half_s].iter().filter_map(sight).collect()
     }
 
     /// The frame before a moment, and the share of the way to the next one; beyond the film's ends it goes on.

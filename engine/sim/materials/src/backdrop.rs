@@ -8,8 +8,6 @@ use cosfly_domain::SemanticLabel;
 const CELL_PX: usize = 4;
 /// Pixels from one that counts to the next along rows, and from one row to the next.
 const STEP_PX: [usize; 2] = [2, 4];
-/// A cell counts in full when this share of its pixels shows the background.
-const FULL: f32 = 1.0;
 
 /// Cells of one size: rows of mean red, green and blue, and how much each counts, 0 to 1.
 struct Level {
@@ -94,7 +92,7 @@ impl Backdrop {
                 }
             }
         }
-        let full = FULL * (CELL_PX / STEP_PX[0] * CELL_PX / STEP_PX[1]) as f32;
+        let full = (CELL_PX / STEP_PX[0] * CELL_PX / STEP_PX[1]) as f32;
         finest.cells.iter_mut().for_each(|sum| *sum = mean(*sum, full));
         let mut levels = vec![finest];
         while let Some(last) = levels.last()

@@ -199,7 +199,7 @@ impl Picture<'_> {
             let pixel = start + k;
             let inside = 1.0 - (2.0 * (k as f32 + 0.5) / length as f32 - 1.0).abs();
             let pixel_m = self.view.pixel() * depth_m[pixel];
-            // It is smooth: one place serves two pixels.
+            // The backdrop is smooth: one place serves two pixels.
             if k % 2 == 0 {
                 smooth = backdrop.at(from + k, row);
             }
