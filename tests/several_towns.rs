@@ -2,6 +2,8 @@
 
 use crate::street::{RECIPE, Street, map};
 use crate::support::cosfly;
+use std::collections::BTreeSet;
+use std::os::unix::fs::MetadataExt;
 use std::path::Path;
 
 /// The street's recipe with a second town and its stages, whose names begin with `far_`. The dataset's line of inputs
@@ -236,4 +238,47 @@ fn inputs_that_do_not_fit_together_are_refused() {
     std::fs::write(street.path().join("far.xodr"), far_map()).expect("writable");
     let said = refusal(&street, &[]);
     assert!(said.contains("`far_town` is connected to `inputs.town`, but no picture shows that town"), "{said}");
+}
+
+/// Bytes of the files below a folder, each file once, whatever its names.
+fn bytes_below(folder: &Path, seen: &mut BTreeSet<u64>) -> u64 {
+    let entries = std::fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry"));
+    let bytes = |entry: std::fs::DirEntry| {
+        let data = entry.metadata().expect("a file");
+        match data.is_dir() {
+            true => bytes_below(&entry.path(), seen),
+            false if seen.insert(data.ino()) => data.len(),
+            false => 0,
+        }
+    };
+    entries.map(bytes).sum()
+}
+
+#[test]
+fn a_plan_tells_what_a_run_writes_before_it_and_what_further_walks_add() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (frames, height) in [("16", "90"), ("48", "180")] {
+        let store = folder.path().join(frames);
+        let count = |count: u32| format!("stages.walkers.count={count}");
+        let options = |count: &str| -> Vec<String> {
+            let sets = [count, &format!("stages.walkers.frames={frames}"), &format!("stages.frames.height={height}")];
+            let words = ["recipes/small.toml", "--store", &store.to_string_lossy()].map(str::to_owned);
+            words.into_iter().chain(sets.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()])).collect()
+        };
+        let planned = |number: u32| {
+            let words = [vec!["plan".to_owned(), "--json".to_owned()], options(&count(number))].concat();
+            let plan: serde_json::Value = serde_json::from_str(&cosfly(&words).run_ok().stdout).expect("JSON");
+            plan["predicted_bytes"].as_f64().expect("a number")
+        };
+        let mut written = 0.0;
+        for number in [2, 5] {
+            let (before, predicted) = (written, planned(number));
+            let out = folder.path().join(format!("{frames}-{number}")).to_string_lossy().into_owned();
+            let run = ["run".to_owned(), "--quiet".to_owned(), "--out".to_owned(), out];
+            cosfly(&[run.to_vec(), options(&count(number))].concat()).run_ok();
+            written = bytes_below(&store, &mut BTreeSet::new()) as f64;
+            let ratio = predicted / (written - before);
+            assert!((0.67..1.5).contains(&ratio), "{frames} frames, {number} walks: {ratio:.2} of what was written");
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! Settings of pictures among the parameters of a stage that films.
 
 use cosfly_diagnose::ParameterError;
+use cosfly_domain::channels::ChannelSource;
 use cosfly_render::{CameraConfig, RenderConfig};
 use cosfly_schema::EncodingConfig;
 use cosfly_stage::{StageNeed, parameters};
@@ -14,6 +15,29 @@ pub const ENCODING: &str = "encoding";
 /// Parameters that the schema cannot express.
 pub fn read(parameters: serde_json::Value) -> Result<(RenderConfig, EncodingConfig), ParameterError> {
     parameters::read_joined(parameters, ENCODING)
+}
+
+/// Bytes of a film for each frame of its flight, on average over the films, as measured; for predictions.
+pub fn bytes_per_frame(config: &RenderConfig) -> u64 {
+    let films = config.films();
+    let cameras: Vec<RenderConfig> = match films.is_empty() {
+        true => vec![config.of_camera(None)],
+        false => films.iter().map(|film| config.of_camera(Some(film))).collect(),
+    };
+    cameras.iter().map(bytes_of_picture).sum::<u64>() / cameras.len() as u64
+}
+
+/// Bytes of a picture with all its channels, by frame of the flight: large ones have fewer a pixel.
+fn bytes_of_picture(camera: &RenderConfig) -> u64 {
+    let pixels = f64::from(camera.width) * f64::from(camera.height);
+    let on_request = camera.channels.iter().map(|channel| match channel.source {
+        ChannelSource::Flow(_) => 7.1,
+        ChannelSource::FilmNumber => 0.9,
+        ChannelSource::Number(_) | ChannelSource::Bytes(_) => 0.1,
+        _ => 0.0,
+    });
+    let bytes = 28.0 * (pixels * pixels.sqrt()).sqrt() + pixels * on_request.sum::<f64>();
+    bytes as u64 / u64::from(camera.every)
 }
 
 /// A film begins before its second picture: offsets of cameras are less than the time from one picture to the next.

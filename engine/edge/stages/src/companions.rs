@@ -23,7 +23,7 @@ pub fn part(count: u32, paths: InputPort, others: InputPort) -> StagePart {
         parameters: serde_json::json!({ "companions": count }),
         inputs: vec![ports::town(), paths, others],
         items: ItemRule::PerInput("walks"),
-        bytes_per_item: 8_000 * u64::from(count),
+        bytes_per_frame: 40 * u64::from(count),
         resources: Resources { memory_mib: 512, batch: 4 },
         ..StageProperties::new("plan", StageRole::Serves, COMPANIONS)
     };

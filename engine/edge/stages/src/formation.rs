@@ -33,6 +33,7 @@ pub fn parts(expert: RecipeExpert, properties: StageProperties) -> Vec<StagePart
             version: quotas::TRIALS_VERSION,
             artifact: ports::LOSSES,
             bytes_per_item: 100,
+            bytes_per_frame: 0,
             ..planning.clone()
         };
         let trial = FormationStage { expert: expert.clone(), properties: trial, is_trial: true };

@@ -13,8 +13,8 @@ use cosfly_frames::Seed;
 use cosfly_pedestrians::{PedestrianConfig, PedestrianError, WalkableGrid, walk};
 use cosfly_stage::parameters;
 use cosfly_stage::{
-    InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
-    TaskContext,
+    InputPort, Inputs, ItemLength, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties,
+    StageRole, TaskContext,
 };
 
 /// Stage kind `pedestrians`.
@@ -48,7 +48,8 @@ impl StageKind for Pedestrians {
             inputs: self.ports(),
             sources,
             items: ItemRule::Count { prefix: "p", count },
-            bytes_per_item: 60 * u64::from(config.frames),
+            bytes_per_frame: 60,
+            length: Some(ItemLength::new(config.frames, config.dt_s)),
             resources: Resources { memory_mib: 512, batch: 16 },
             ..StageProperties::new(self.name(), StageRole::World, WALK)
         };

@@ -45,7 +45,7 @@ impl StageKind for Perturb {
             parameters: parameters::canonical(&config),
             inputs: self.ports(),
             items: ItemRule::PerInput("trajectories"),
-            bytes_per_item: 80_000,
+            bytes_per_frame: 400,
             resources: Resources { memory_mib: 256, batch: 16 },
             ..StageProperties::new(self.name(), StageRole::Changes, TRAJECTORY)
         };

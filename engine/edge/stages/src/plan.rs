@@ -64,7 +64,7 @@ impl StageKind for Plan {
             sources: expert.sources(),
             inputs,
             items,
-            bytes_per_item: 60_000,
+            bytes_per_frame: 300,
             resources: Resources { memory_mib: 512, batch: 4 },
             ..StageProperties::new(self.name(), StageRole::Plans, TRAJECTORY)
         };
@@ -78,6 +78,7 @@ impl StageKind for Plan {
                 version: quotas::TRIALS_VERSION,
                 artifact: ports::LOSSES,
                 bytes_per_item: 100,
+                bytes_per_frame: 0,
                 role: StageRole::Serves,
                 ..properties
             };

@@ -50,9 +50,9 @@ impl StageKind for Wasm {
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
         let config: StagePlugin = parameters::read(given)?;
-        let (artifact, items, bytes_per_item, role) = match config.makes {
-            Makes::Flights => (TRAJECTORY, "trajectories", 60_000, StageRole::Changes),
-            Makes::Extras => (EXTRAS, "frames", 20_000, StageRole::Speaks),
+        let (artifact, items, bytes_per_frame, role) = match config.makes {
+            Makes::Flights => (TRAJECTORY, "trajectories", 300, StageRole::Changes),
+            Makes::Extras => (EXTRAS, "frames", 100, StageRole::Speaks),
         };
         let properties = StageProperties {
             version: 4,
@@ -60,7 +60,7 @@ impl StageKind for Wasm {
             sources: vec![source("", PluginRole::Stage(config.makes), &config.setting())],
             inputs: ports_of(config.makes),
             items: ItemRule::PerInput(items),
-            bytes_per_item,
+            bytes_per_frame,
             ..StageProperties::new(self.name(), role, artifact)
         };
         Ok(single(WasmStage { config, properties }))

@@ -25,6 +25,9 @@ use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, Stag
 use cosfly_stage::{StageProperties, StageRole, TaskContext, parameters};
 use cosfly_write::unread;
 
+/// Bytes of a stored point, and echoes of a hundred beams, as measured behind people in towns; for predictions.
+const BYTES_PER_POINT: u64 = 18;
+const ECHOES_OF_100: u64 = 75;
 /// Meaning of a lidar that is no device of the list.
 const OWN_DOC: &str = "Lidar with a pattern of the recipe.";
 
@@ -61,7 +64,7 @@ impl StageKind for Scan {
             parameters: canonical,
             inputs: self.ports(),
             items: ItemRule::PerInput("frames"),
-            bytes_per_item: 200_000_000,
+            bytes_per_s: ECHOES_OF_100 * BYTES_PER_POINT * pattern.beams() as u64 * u64::from(pattern.shots_hz) / 100,
             files_per_item: 2,
             gives: Some(source.name.clone()),
             needs: cosfly_experts::pictures::needs_camera(config.camera.as_deref()),

@@ -27,6 +27,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Blob with readings, for logs: that of [`EXTRA`] once more.
 pub const READINGS: &str = "readings";
 
+/// Bytes of a stored number of a reading, as measured; for predictions.
+const BYTES_PER_VALUE: u64 = 8;
+
 /// Stage kind `sense`.
 pub struct Sense;
 
@@ -59,12 +62,14 @@ impl StageKind for Sense {
         check_names(&source.name, &source.columns).map_err(|rule| parameters::refused_at("table", rule))?;
         let mut canonical = parameters::canonical(&config);
         canonical["version"] = sensor.version.into();
+        let reading = BYTES_PER_VALUE * source.columns.len() as u64;
         let properties = StageProperties {
             version: 2,
             parameters: canonical,
             inputs: self.ports(),
             items: ItemRule::PerInput("frames"),
-            bytes_per_item: 20_000,
+            bytes_per_frame: if config.rate_hz.is_none() { reading } else { 0 },
+            bytes_per_s: config.rate_hz.map_or(0, |rate_hz| (reading as f64 * rate_hz) as u64),
             files_per_item: 2,
             gives: Some(source.name.clone()),
             needs: cosfly_experts::pictures::needs_camera(config.camera.as_deref()),

@@ -47,7 +47,8 @@ pub fn part(config: &DatasetConfig, inputs: [InputPort; 3]) -> StagePart {
         }),
         inputs,
         items: group_notes::items(&config),
-        bytes_per_item: 10_000_000,
+        bytes_per_item: 300_000,
+        bytes_per_frame: 2_000,
         files_per_item: 24,
         resources: Resources { memory_mib: 2048, batch: 1 },
         ..StageProperties::new("dataset", StageRole::Serves, SHARD)

@@ -7,15 +7,20 @@ use crate::sources::{HashedSource, SourceReader};
 use cosfly_diagnose::Result;
 use cosfly_fingerprint::Digest;
 use cosfly_recipe::{Arrival, Recipe, RecipeStage};
-use cosfly_stage::{Fan, ItemName};
+use cosfly_stage::{Blobs, Fan, ItemLength, ItemName, StageProperties};
 use cosfly_store::{FinishedTask, FolderTimes, Store};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 /// Files of a finished item beside its blobs: plan document, action record, done record.
 const RECORDS_PER_ITEM: u64 = 3;
 /// Fewer items than this are not worth another thread.
 const PER_THREAD: usize = 256;
+/// Finished items of a stage that a prediction is made from.
+const MEASURED: usize = 256;
+/// Length of an item where no stage says it.
+const UNTOLD: ItemLength = ItemLength { frames: 200, duration_s: 100.0 };
 
 /// Plan of a recipe against a store. The stages that no other reads are asked for.
 ///
@@ -181,19 +186,69 @@ fn predict_time(plan: &mut Plan<'_>, store: &Store) {
 /// Predicts the bytes of the items left to do: as many as the stage's finished items have, else as it states itself.
 fn predict(plan: &mut Plan<'_>) {
     let mut expected: Vec<u64> = Vec::with_capacity(plan.stages.len());
-    for (stage, described) in plan.stages.iter_mut().zip(&plan.recipe.stages) {
-        let known: Vec<u64> = stage.finished.iter().flatten().map(|finished| finished.record.bytes()).collect();
-        let stated = described.stage.properties().bytes_per_item;
+    for ((stage, described), length) in plan.recipe.stages.iter().enumerate().zip(lengths(plan.recipe)) {
         let arriving = || {
-            let each = described.connections.iter().filter(|connection| connection.port.fan == Fan::Each);
-            each.filter_map(|connection| connection.upstreams.iter().map(|upstream| expected[*upstream]).max()).sum()
+            let connections = described.connections.iter();
+            let by_item = connections.filter(|connection| matches!(connection.port.fan, Fan::Each | Fan::Group));
+            let all = by_item.flat_map(|connection| connection.arrivals.iter()).map(|arrival| expected[arrival.stage]);
+            all.fold(0, u64::saturating_add) / (described.items.len() as u64).max(1)
         };
-        let each = match (known.len() as u64, stated) {
-            (0, 0) => arriving(),
-            (0, stated) => stated,
-            (items, _) => known.iter().fold(0, |sum: u64, bytes| sum.saturating_add(*bytes)) / items,
+        let stated = || match stated_bytes(described.stage.properties(), length.unwrap_or(UNTOLD)) {
+            0 => arriving(),
+            stated => stated,
         };
-        stage.predicted_bytes = stage.to_run().saturating_mul(each);
+        let each = measured_bytes(plan, stage).unwrap_or_else(stated);
+        let planned = &mut plan.stages[stage];
+        planned.predicted_bytes = planned.to_run().saturating_mul(each);
         expected.push(each);
     }
+}
+
+/// Mean bytes of the finished items of a stage, without the blobs that they were handed; `None` where none is finished.
+fn measured_bytes(plan: &Plan<'_>, stage: usize) -> Option<u64> {
+    let numbered = plan.stages[stage].finished.iter().enumerate();
+    let finished = numbered.filter_map(|(item, found)| Some((item, &found.as_ref()?.record.outputs)));
+    let finished: Vec<(usize, &Arc<Blobs>)> = finished.take(MEASURED).collect();
+    let mut handed: BTreeSet<Digest> = BTreeSet::new();
+    let mut hand = |arrival: &Arrival| {
+        if let Some(found) = &plan.stages[arrival.stage].finished[arrival.item] {
+            handed.extend(found.record.outputs.values().map(|blob| blob.digest));
+        }
+    };
+    for connection in &plan.recipe.stages[stage].connections {
+        match connection.port.fan {
+            Fan::Each | Fan::Group => {
+                finished.iter().flat_map(|(item, _)| connection.arrivals_for(*item)).for_each(&mut hand)
+            }
+            Fan::Broadcast | Fan::Gather => connection.arrivals.iter().for_each(&mut hand),
+        }
+    }
+    let own = finished.iter().flat_map(|(_, blobs)| blobs.values()).filter(|blob| !handed.contains(&blob.digest));
+    own.fold(0, |sum: u64, blob| sum.saturating_add(blob.bytes)).checked_div(finished.len() as u64)
+}
+
+/// Bytes of an item of this length, as its stage states them.
+fn stated_bytes(properties: &StageProperties, length: ItemLength) -> u64 {
+    let of_frames = properties.bytes_per_frame.saturating_mul(length.frames);
+    let of_seconds = properties.bytes_per_s as f64 * length.duration_s;
+    properties.bytes_per_item.saturating_add(of_frames).saturating_add(of_seconds as u64)
+}
+
+/// Length of one item of each stage: what the stage sets, else the longest that it is made of; all of a group, one after the other.
+fn lengths(recipe: &Recipe) -> Vec<Option<ItemLength>> {
+    let mut lengths: Vec<Option<ItemLength>> = Vec::with_capacity(recipe.stages.len());
+    for described in &recipe.stages {
+        let arriving = described.connections.iter().filter_map(|connection| {
+            let upstreams = connection.upstreams.iter().filter_map(|upstream| lengths[*upstream]);
+            let longest = upstreams.max_by_key(|length| length.frames)?;
+            match connection.port.fan {
+                Fan::Each => Some(longest),
+                Fan::Group => Some(longest.times(connection.arrivals.len().div_ceil(described.items.len().max(1)))),
+                Fan::Broadcast | Fan::Gather => None,
+            }
+        });
+        let longest = arriving.max_by_key(|length| length.frames);
+        lengths.push(described.stage.properties().length.or(longest));
+    }
+    lengths
 }

@@ -25,7 +25,7 @@ pub use event::{RunEvent, Work};
 pub use kind::{Registry, StageKind, StagePart, Tool};
 pub use name::{ItemId, ItemName, StageName};
 pub use properties::{
-    Fan, InputPort, ItemRule, PortSource, ReadSchema, Resources, Sees, Settle, Source, SourceCheck, StageNeed,
-    StageProperties, StageRole, Takes,
+    Fan, InputPort, ItemLength, ItemRule, PortSource, ReadSchema, Resources, Sees, Settle, Source, SourceCheck,
+    StageNeed, StageProperties, StageRole, Takes,
 };
 pub use stage::{Produced, Stage, TaskContext};

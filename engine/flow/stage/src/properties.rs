@@ -23,9 +23,15 @@ pub struct StageProperties {
     pub artifact: &'static str,
     /// Rule that defines the items.
     pub items: ItemRule,
-    /// Estimated size of one item's output, bytes, for `cosfly plan` before any item is made; 0 where it is about as
-    /// large as the items at the [`Fan::Each`] ports.
+    /// Estimated size of one item's output, bytes, for `cosfly plan` before any item is made; where this and the two below are 0, it is
+    /// about as large as the items that arrive with it at [`Fan::Each`] and [`Fan::Group`] ports.
     pub bytes_per_item: u64,
+    /// Estimated size of one item's output for each of its frames, bytes, on top of [`Self::bytes_per_item`].
+    pub bytes_per_frame: u64,
+    /// Estimated size of one item's output for each of its seconds, bytes, on top of the others.
+    pub bytes_per_s: u64,
+    /// Length of one item where the stage itself sets it; without it, items are as long as those that they are made of.
+    pub length: Option<ItemLength>,
     /// Estimated number of blobs of one item that no other item made, for `cosfly plan` before any item is made.
     pub files_per_item: u64,
     /// Blobs that only other stages need: they may be removed once everything that reads them is finished. A reader that
@@ -56,6 +62,9 @@ impl StageProperties {
             artifact,
             items: ItemRule::One,
             bytes_per_item: 0,
+            bytes_per_frame: 0,
+            bytes_per_s: 0,
+            length: None,
             files_per_item: 1,
             intermediate: &[],
             asks: None,
@@ -64,6 +73,27 @@ impl StageProperties {
             role,
             resources: Resources::default(),
         }
+    }
+}
+
+/// Length of an item that is a recording.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ItemLength {
+    /// Number of frames.
+    pub frames: u64,
+    /// Duration, seconds.
+    pub duration_s: f64,
+}
+
+impl ItemLength {
+    /// Frames, `dt_s` seconds apart.
+    pub fn new(frames: u32, dt_s: f64) -> Self {
+        Self { frames: frames.into(), duration_s: f64::from(frames) * dt_s }
+    }
+
+    /// Several of this length, one after the other.
+    pub fn times(self, count: usize) -> Self {
+        Self { frames: self.frames.saturating_mul(count as u64), duration_s: self.duration_s * count as f64 }
     }
 }
 

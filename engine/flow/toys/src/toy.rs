@@ -5,8 +5,8 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_recipe::{Arrival, Connection, ItemNames, Recipe, RecipeStage, SourceFile};
 use cosfly_stage::{
-    Fan, InputPort, Inputs, ItemName, ItemRule, PortSource, Produced, Resources, Sees, Source, Stage, StageName,
-    StageProperties, StageRole, Takes, TaskContext,
+    Fan, InputPort, Inputs, ItemName, PortSource, Produced, Resources, Sees, Source, Stage, StageName, StageProperties,
+    StageRole, Takes, TaskContext,
 };
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -173,21 +173,14 @@ fn toy_stage(toy: &Toy, earlier: &[RecipeStage]) -> Result<RecipeStage> {
     }
     let sources = toy.sources.iter().enumerate().map(|(n, path)| (format!("source{n}"), path.clone()));
     let properties = StageProperties {
-        kind: "toy".to_owned(),
         version: toy.version,
         parameters: toy.parameters.clone(),
         sources: sources.clone().map(|(parameter, path)| Source::new(parameter, path)).collect(),
         inputs: connections.iter().map(|connection| connection.port.clone()).collect(),
-        artifact: "toy/1",
-        items: ItemRule::One,
         bytes_per_item: 1000,
-        files_per_item: 1,
         intermediate: if toy.packs { &[PACK] } else { &[] },
-        asks: None,
-        gives: None,
-        needs: vec![],
-        role: StageRole::Changes,
         resources: Resources { memory_mib: 0, batch: 1 },
+        ..StageProperties::new("toy", StageRole::Changes, "toy/1")
     };
     let files = sources.map(|(parameter, path)| SourceFile { parameter, path });
     Ok(RecipeStage {

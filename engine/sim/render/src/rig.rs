@@ -65,19 +65,6 @@ impl RenderConfig {
         self.cameras.iter().flat_map(|(name, camera)| films(name, camera)).collect()
     }
 
-    /// Pixels of a film for each frame of its flight, on average over the films.
-    pub fn mean_pixels(&self) -> u64 {
-        let pixels = |film: Option<&str>| {
-            let own = self.of_camera(film);
-            u64::from(own.width) * u64::from(own.height) / u64::from(own.every)
-        };
-        let films = self.films();
-        match films.len() as u64 {
-            0 => pixels(None),
-            count => films.iter().map(|film| pixels(Some(film))).sum::<u64>() / count,
-        }
-    }
-
     /// Checks the cameras, each with its own settings.
     pub(crate) fn check_cameras(&self) -> Result<(), ConfigProblem> {
         let problem =

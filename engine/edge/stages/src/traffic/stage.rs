@@ -13,8 +13,8 @@ use cosfly_frames::Seed;
 use cosfly_pedestrians::{Crowd, WalkableGrid, path_of};
 use cosfly_stage::parameters;
 use cosfly_stage::{
-    Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Source, Stage, StageKind, StagePart, StageProperties,
-    StageRole, TaskContext,
+    Artifact, Fan, InputPort, Inputs, ItemLength, ItemRule, Produced, Source, Stage, StageKind, StagePart,
+    StageProperties, StageRole, TaskContext,
 };
 use cosfly_traffic::{Avoided, Follow, SimulatedTraffic, TrackFile, TrafficConfig, simulate_traffic};
 use std::collections::BTreeMap;
@@ -52,15 +52,16 @@ impl StageKind for TrafficKind {
         let mut config: TrafficConfig = parameters::read(given)?;
         config.check().map_err(|rule| parameters::refused_at(&rule.path.join("."), rule.message))?;
         let sources = take_sources(&mut config);
-        let properties = |parameters, inputs, bytes_per_item| StageProperties {
+        let properties = |parameters, inputs, bytes_per_frame| StageProperties {
             version: 10,
             parameters,
             inputs,
-            bytes_per_item,
+            bytes_per_frame,
+            length: Some(ItemLength::new(config.frames, config.dt_s)),
             files_per_item: 2,
             ..StageProperties::new(self.name(), StageRole::World, WALK)
         };
-        let bytes = 20 * u64::from(config.frames) * u64::from(config.people.count);
+        let bytes = 20 * u64::from(config.people.count);
         let bodies = properties(parameters_of_bodies(&config), self.ports(), bytes);
         let bodies = StageProperties { sources, artifact: TRAFFIC, role: StageRole::Serves, ..bodies };
         let doc = "Everybody: the part of the same stage.";
@@ -68,7 +69,7 @@ impl StageKind for TrafficKind {
         let items = ItemRule::Count { prefix: "t", count: config.follow.count };
         // One walk does not depend on how many there are.
         let parameters = parameters::without(parameters::canonical(&config.follow), Follow::NOT_IN_KEY);
-        let walks = properties(parameters, inputs, 60 * u64::from(config.frames));
+        let walks = properties(parameters, inputs, 60);
         let walks = StageProperties { items, ..walks };
         let config = Arc::new(config);
         Ok(vec![

@@ -3,9 +3,7 @@
 use crate::toys::{ToyStage, port};
 use cosfly_diagnose::{Diagnostic, ParameterError};
 use cosfly_recipe::{Recipe, read};
-use cosfly_stage::{
-    Fan, InputPort, ItemRule, PortSource, Registry, Resources, StageKind, StagePart, StageProperties, StageRole,
-};
+use cosfly_stage::{Fan, InputPort, ItemRule, PortSource, Registry, StageKind, StagePart, StageProperties, StageRole};
 use std::path::Path;
 
 /// A film of each of its two tracks; part `near` cuts down the tracks at port `others`.
@@ -17,21 +15,10 @@ struct Film {
 impl Film {
     fn properties(&self, inputs: Vec<InputPort>) -> StageProperties {
         StageProperties {
-            kind: self.name().into(),
-            version: 1,
-            parameters: serde_json::json!({}),
-            sources: vec![],
             inputs,
-            artifact: "track/1",
             items: ItemRule::Count { prefix: "t", count: 2 },
             bytes_per_item: 1,
-            files_per_item: 1,
-            intermediate: &[],
-            asks: None,
-            gives: None,
-            needs: vec![],
-            role: StageRole::Changes,
-            resources: Resources::default(),
+            ..StageProperties::new(self.name(), StageRole::Changes, "track/1")
         }
     }
 }

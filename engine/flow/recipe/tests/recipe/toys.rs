@@ -5,8 +5,8 @@ use cosfly_blobs::OutputSink;
 use cosfly_diagnose::ParameterError;
 use cosfly_recipe::Recipe;
 use cosfly_stage::{
-    Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Registry, Resources, Sees, Source, Stage, StageKind,
-    StagePart, StageProperties, StageRole, Takes, TaskContext,
+    Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Registry, Sees, Source, Stage, StageKind, StagePart,
+    StageProperties, StageRole, Takes, TaskContext,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -57,21 +57,11 @@ impl StageKind for Toy {
 impl Toy {
     fn properties(&self, parameters: impl Serialize) -> StageProperties {
         StageProperties {
-            kind: self.name.into(),
-            version: 1,
             parameters: serde_json::to_value(parameters).unwrap(),
-            sources: vec![],
             inputs: self.ports.clone(),
-            artifact: self.artifact,
             items: self.items.clone(),
             bytes_per_item: 1,
-            files_per_item: 1,
-            intermediate: &[],
-            asks: None,
-            gives: None,
-            needs: vec![],
-            role: StageRole::Changes,
-            resources: Resources::default(),
+            ..StageProperties::new(self.name, StageRole::Changes, self.artifact)
         }
     }
 
