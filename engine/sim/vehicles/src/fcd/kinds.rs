@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FcdType {
-    /// Kind: `pedestrian`, `bicycle`, `e_scooter`, `motorcycle`, `car`, `van`, `truck` or `bus`.
+    /// Kind: `pedestrian`, `bicycle`, `e_scooter`, `motorcycle`, `car`, `van`, `truck`, `bus` or `wheelchair`.
     #[schemars(with = "String")]
     pub kind: BodyKind,
     /// Length, width and height, metres. Default: those of SUMO's class.
@@ -19,7 +19,8 @@ pub struct FcdType {
 }
 
 /// Beginnings and ends of words in names of types; the first that fits.
-const WORDS: [(&str, BodyKind); 24] = [
+const WORDS: [(&str, BodyKind); 25] = [
+    ("wheelchair", BodyKind::Wheelchair),
     ("motorcycl", BodyKind::Motorcycle),
     ("motorcycle", BodyKind::Motorcycle),
     ("moped", BodyKind::Motorcycle),
@@ -61,7 +62,11 @@ pub(super) fn kind_of(name: &str, is_person: bool, types: &BTreeMap<String, FcdT
     if let Some(FcdType { kind, size_m }) = stated {
         return Some((*kind, DVec3::from_array(size_m.unwrap_or(kind.row().class_size_m))));
     }
-    let kind = if is_person { Some(BodyKind::Pedestrian) } else { kind_by_words(name) }?;
+    let by_words = kind_by_words(name);
+    let kind = match is_person {
+        true => by_words.filter(|kind| *kind == BodyKind::Wheelchair).unwrap_or(BodyKind::Pedestrian),
+        false => by_words?,
+    };
     Some((kind, DVec3::from_array(kind.row().class_size_m)))
 }
 
@@ -101,5 +106,8 @@ mod tests {
         }
         assert_eq!(kind("motorscooter"), Some(BodyKind::Motorcycle));
         assert_eq!(kind_of("car", true, &types).map(|it| it.0), Some(BodyKind::Pedestrian));
+        // SUMO's class of persons and of vehicles.
+        let chair = Some((BodyKind::Wheelchair, DVec3::new(1.05, 0.65, 1.32)));
+        assert_eq!([true, false].map(|is_person| kind_of("DEFAULT_WHEELCHAIR", is_person, &types)), [chair; 2]);
     }
 }
