@@ -16,12 +16,12 @@ use std::path::{Path, PathBuf};
 /// A table as a stream of Arrow's C data interface.
 pub type ArrowStream = FFI_ArrowArrayStream;
 
-/// Values of a column; null numbers are NaN or 0, null texts `None`.
+/// Values of a column; null numbers are NaN, null texts `None`.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Column {
     /// Numbers with fractions.
     Reals(Vec<f64>),
-    /// Whole numbers, class labels, and booleans as 0 and 1.
+    /// Whole numbers, class labels, and booleans as 0 and 1; a column with nulls is one of reals.
     Integers(Vec<i64>),
     /// Texts.
     Texts(Vec<Option<String>>),
@@ -190,11 +190,11 @@ fn plain(arrays: &[ArrayRef]) -> Option<Column> {
                 arrays.iter().map(|it| it.as_struct().column_by_name("bytes").cloned()).collect();
             plain(&files?)
         }
-        kind if kind.is_integer() || *kind == DataType::Boolean => {
-            let parts: Option<Vec<_>> = arrays.iter().map(integers).collect();
-            Some(Column::Integers(parts?.iter().flat_map(|part| part.iter().map(Option::unwrap_or_default)).collect()))
-        }
-        kind if kind.is_floating() => {
+        kind if kind.is_numeric() || *kind == DataType::Boolean => {
+            let of_whole = |it: &ArrayRef| integers(it).filter(|it| it.null_count() == 0 && !kind.is_floating());
+            if let Some(parts) = arrays.iter().map(of_whole).collect::<Option<Vec<_>>>() {
+                return Some(Column::Integers(parts.iter().flat_map(|part| part.values().iter().copied()).collect()));
+            }
             let parts: Option<Vec<_>> = arrays.iter().map(reals).collect();
             Some(Column::Reals(parts?.iter().flat_map(|it| it.iter().map(|it| it.unwrap_or(f64::NAN))).collect()))
         }

@@ -16,7 +16,7 @@ pub enum Pixels {
     Bytes(Vec<u8>),
     /// Labels, or 0 and 1: one byte per pixel.
     Labels(Vec<u8>),
-    /// Depth, metres.
+    /// Depth, metres, or disparity, pixels.
     Depth(Vec<f32>),
     /// Ids.
     Ids(Vec<u32>),
@@ -34,7 +34,7 @@ pub struct Image {
 
 impl Image {
     /// Unpacks a stored image; colours are averaged over the source's area when scaled, other channels are sampled at
-    /// the middle of each pixel.
+    /// the middle of each pixel. Lengths in pixels, such as flow, are those of the scaled picture.
     ///
     /// # Errors
     /// An image file that cannot be decoded.
@@ -74,7 +74,19 @@ impl Image {
                         ));
                     }
                 };
-                Ok(Self { size, pixels })
+                let across_and_down = [size[0] as f32 / from[0] as f32, size[1] as f32 / from[1] as f32];
+                match pixels {
+                    Pixels::Depth(mut values) if channel.is_in_pixels() && size != from => {
+                        values.iter_mut().for_each(|value| *value *= across_and_down[0]);
+                        Ok(Self { size, pixels: Pixels::Depth(values) })
+                    }
+                    Pixels::Pairs(mut values) if channel.is_in_pixels() && size != from => {
+                        let scales = across_and_down.iter().cycle();
+                        values.iter_mut().zip(scales).for_each(|(value, scale)| *value *= scale);
+                        Ok(Self { size, pixels: Pixels::Pairs(values) })
+                    }
+                    pixels => Ok(Self { size, pixels }),
+                }
             }
         }
     }

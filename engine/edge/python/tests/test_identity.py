@@ -130,9 +130,13 @@ def test_states_of_loaders_say_what_their_batches_are_of(other):
         ("batch_size", windows.loader(8)),
         ("shards", windows.loader(4, shard=(0, 2))),
         ("shuffle", windows.loader(4, shuffle=False)),
+        ("anchor", cosfly.Dataset("data", channels=()).windows(anchor="expert").loader(4)),
     ]:
         with pytest.raises(ValueError, match=name):
             loader.load_state_dict(state)
+    first, second = (cosfly.Dataset("data", channels=(), trajectories=windows.trajectory_ids[it]).loader(4) for it in (0, 1))
+    with pytest.raises(ValueError, match="flights"):  # as many samples, but others
+        second.load_state_dict(first.state_dict())
     for wrong in ({"batch": -1}, {"batch": 10**9}, {"epoch": 1.5}):
         with pytest.raises((ValueError, TypeError)):
             windows.loader(4).load_state_dict({**state, **wrong})

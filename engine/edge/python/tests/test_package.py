@@ -239,6 +239,31 @@ def test_batches_are_the_samples_one_by_one():
     assert windows[4]["difficulty"] in ("easy", "medium", "hard") and windows[4]["expert_boxes_px"].shape == (10, 4)
 
 
+def test_lengths_in_pixels_are_those_of_the_scaled_pictures():
+    cameras = {"pair": {"base_line_m": 0.2}, "wide": {"fov_deg": 100}}
+    channels = ["rgb", "depth", "semantic", "instance", "disparity", "flow_forward"]
+    changes = {"stages.walkers.count": 1, "stages.walkers.frames": 16, "stages.frames.cameras": cameras, "stages.frames.channels": channels}
+    cosfly.run("small", set=changes, out="rig", progress=False)
+    options = {"trajectories": "*-pair_left", "channels": ["disparity", "flow_forward", "depth"], "columns": "full_box_px"}
+    whole, small = cosfly.Dataset("rig", **options), cosfly.Dataset("rig", size=(160, 60), **options)
+    a, b = whole[3], small[3]  # 320 x 180: half as wide, a third as high
+    assert np.abs(a["flow_forward"]).max() > 1 and a["disparity"].max() > 0.5
+    assert np.allclose(b["flow_forward"], a["flow_forward"][1::3, 1::2] * np.array([1 / 2, 1 / 3], np.float32))
+    assert np.allclose(b["disparity"], a["disparity"][1::3, 1::2] / 2)
+    assert np.array_equal(b["depth"], a["depth"][1::3, 1::2])
+    assert np.allclose(b["full_box_px"], a["full_box_px"] * np.array([1 / 2, 1 / 3, 1 / 2, 1 / 3]))
+    with pytest.raises(cosfly.Error, match="wide.* has no channel\\s+`disparity`"):  # of the last camera, before the first sample
+        cosfly.Dataset("rig", channels=["rgb", "disparity"], trajectories=["*-pair_left", "*-wide"])
+
+
+def test_absent_whole_numbers_are_not_zero():
+    table, rows = cosfly.Dataset("data", channels=()).table("frames"), pq.read_table("data/data/frames")
+    frames = rows["expert_frame"].to_pylist()
+    assert None in frames and np.array_equal(table["expert_frame"], [np.nan if it is None else it for it in frames], equal_nan=True)
+    assert table["frame"].dtype == np.int64 and table["in_view"].dtype == np.int64
+    assert np.isnan(cosfly.Dataset("data", role="expert", channels=(), columns="position_event")[0]["position_event"])
+
+
 def test_the_anchor_of_windows():
     twins = cosfly.Dataset("data", role="perturbed", channels=())
     ours, theirs = twins.windows(), twins.windows(anchor="expert")

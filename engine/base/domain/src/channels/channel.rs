@@ -120,6 +120,11 @@ impl Channel {
         matches!(self.source, TargetAlone | Flow(_) | FlowValid(_) | FilmNumber)
     }
 
+    /// Whether the values are lengths in pixels of the picture, which change where it is scaled.
+    pub fn is_in_pixels(&self) -> bool {
+        self.notes.contains(&("unit", "px"))
+    }
+
     /// Whether a log may hold small pictures of the channel: of all but ids, whose numbers are no picture.
     pub fn has_previews(&self) -> bool {
         self.element() != Element::Id

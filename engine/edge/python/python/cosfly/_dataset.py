@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import fnmatch
+import hashlib
 import operator
 import os
 import warnings
@@ -58,14 +59,16 @@ class Dataset:
     the columns whose values they hold: v7 has ``rgb``, ``depth``, ``semantic`` and ``instance``, LeRobot ``rgb``, and
     ``depth`` where it is a feature in metres, as of ``cosfly export --depth`` (the sky is its greatest depth).
 
-    Scaled colours are the mean over each pixel's area; other channels are sampled at the middle of each pixel. Without
+    Scaled colours are the mean over each pixel's area; other channels are sampled at the middle of each pixel. Flow and
+    disparity are lengths in pixels of the sample's pictures, as boxes are. Without
     ``size`` all channels are bit for bit what the files hold. The object is map-style: ``torch.utils.data.DataLoader``
     takes it as it is, workers included (each process opens its own files).
 
     The object keeps the ``identity`` of the dataset that was opened. Where the folder is made anew meanwhile, pictures and
     tables that are asked for later raise :class:`cosfly.Error` (``dataset-changed``), in worker processes, too: open it again.
 
-    ``channels`` are ``rgb`` and ``depth`` by default; those that are named must be in the first flight. One name alone needs no list.
+    ``channels`` are ``rgb`` and ``depth`` by default; those that are named must be in the first flight of each camera. One name
+    alone needs no list.
     ``split`` is ``train``, ``val``, ``test`` or None for all; ``role`` is ``expert``, ``perturbed`` or None for both;
     ``trajectories`` are ids, or patterns such as ``"expert-*"`` (all flights of the stage ``expert``); ``size`` is (width,
     height); ``jobs`` threads decode the pictures of one call, of :meth:`batch` and of a :class:`Loader`.
@@ -113,9 +116,9 @@ class Dataset:
         self._numbers: Optional[Dict[Tuple[str, int], int]] = None
         self._index = self._frames_index(names_of("columns", columns))
         self._captions = self._read_captions(captions) if captions else {}
-        if channels is not None and self._index:
-            has = self.channels_of(self._index[0][0])
-            self._reader.images(self._places(self._index[:1]), [name for name in self.channels if name not in has])
+        for name in self._one_of_each_camera() if channels is not None else ():
+            has = self.channels_of(name)
+            self._reader.images(self._places([(name, 0)]), [channel for channel in self.channels if channel not in has])
 
     def _chosen(self, trajectories: Union[None, str, Sequence[str]]) -> Container[str]:
         """Ids of the trajectories that are asked for."""
@@ -249,6 +252,14 @@ class Dataset:
             near = difflib.get_close_matches(str(trajectory_id), self._number, 3) or list(self._number)[:3]
             raise NotFound(f"{self.path} has no trajectory {trajectory_id!r}; it has {', '.join(near)} ...")
         return number
+
+    def _one_of_each_camera(self) -> List[str]:
+        """First flight of each camera among the samples: films of one camera have the same channels."""
+        table = self.table("trajectories")
+        cameras = table["camera_name"] if "camera_name" in table.columns else [None] * len(table)
+        camera_of = dict(zip(table["trajectory_id"], cameras))
+        first = {camera_of[name]: name for name in dict.fromkeys(name for name, _ in reversed(self._index))}
+        return sorted(first.values())
 
     def _frames_index(self, columns: Sequence[str]) -> List[Tuple[str, int]]:
         roles = dict(zip(self.table("trajectories")["trajectory_id"], self.table("trajectories")["role"]))
@@ -468,8 +479,10 @@ class Loader:
     def _meaning(self) -> Dict[str, Any]:
         """What the number of a batch means: which samples, in which order, how many at a time."""
         of = self.dataset
+        flights = hashlib.sha256("\n".join(of.trajectory_ids).encode()).hexdigest()[:16]
         return {
             "samples": len(of), "dataset": of.identity, "split": of.split, "unit": of._unit, "role": of.role,
+            "flights": flights, "anchor": getattr(of, "anchor", None),
             "batch_size": self.batch_size, "shuffle": self.shuffle, "shards": self.shard[1],
         }  # fmt: skip
 
