@@ -137,6 +137,8 @@ def test_states_of_loaders_say_what_their_batches_are_of(other):
     first, second = (cosfly.Dataset("data", channels=(), trajectories=windows.trajectory_ids[it]).loader(4) for it in (0, 1))
     with pytest.raises(ValueError, match="flights"):  # as many samples, but others
         second.load_state_dict(first.state_dict())
+    with pytest.raises(cosfly.WrongType, match="the state is None"):
+        windows.loader(4).load_state_dict(None)
     for wrong in ({"batch": -1}, {"batch": 10**9}, {"epoch": 1.5}):
         with pytest.raises((ValueError, TypeError)):
             windows.loader(4).load_state_dict({**state, **wrong})
@@ -191,3 +193,5 @@ def test_a_split_without_flights_has_no_samples_and_all_columns():
         dataset = dataset.windows() if windows else dataset
         assert len(dataset) == 0 and list(dataset) == [] and list(dataset.loader(2)) == []
     assert dataset.table("frames").columns == whole.table("frames").columns
+    for column in ("waypoint_deltas_in_body", "input_boxes_px", "current_pose_in_world"):
+        assert dataset.array(column).shape == (0, *whole.windows().array(column).shape[1:]), column

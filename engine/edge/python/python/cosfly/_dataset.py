@@ -9,7 +9,7 @@ import operator
 import os
 import warnings
 from pathlib import Path
-from typing import Any, Container, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
+from typing import Any, Container, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -96,7 +96,7 @@ class Dataset:
         self.split, self.role = split, role
         self.channels, self.size = CHANNELS if channels is None else names_of("channels", channels), None if size is None else size_of(size)
         self._opened: Tuple[int, Optional[Reader]] = (-1, None)
-        self.jobs = _whole("jobs", jobs, 1)
+        self.jobs = min(_whole("jobs", jobs, 1), 1024)
         if split not in (None, "train", "val", "test"):
             raise InvalidValue(f"the split is {split!r}; splits are 'train', 'val' and 'test'")
         if role not in (None, *ROLES):
@@ -359,7 +359,13 @@ class Windows(Dataset):
         rows = self._arrays[column]
         if self.size and column.endswith("_boxes_px"):
             rows = [self._scaled(name, boxes) for (name, _), boxes in zip(self._index, rows)]
-        return np.stack(rows) if len(rows) else np.empty((0,))
+        return np.stack(rows) if len(rows) else np.empty((0, *self._shape_of(column)), np.float32)
+
+    def _shape_of(self, column: str) -> Tuple[int, ...]:
+        """Shape of a column of one window, by any window of the data where none is chosen."""
+        width, rows = WINDOW_LISTS[column], self._reader.table("windows", None)[column]
+        numbers = len(rows[0]) if len(rows) else 0
+        return (width,) if column == "current_pose_in_world" else (numbers // width, width)
 
     @property
     def rows(self) -> np.ndarray:
@@ -488,6 +494,8 @@ class Loader:
 
     def load_state_dict(self, state: Dict[str, Any]) -> None:
         """Go on where ``state_dict()`` was taken; dataset, batch size and number of shards must be the same."""
+        if not isinstance(state, Mapping):
+            raise WrongType(f"the state is {state!r:.60} ({type(state).__name__}); give what `state_dict()` gave")
         mine = self._meaning()
         absent = [name for name in ("epoch", "batch", "seed") if name not in state]
         if absent:

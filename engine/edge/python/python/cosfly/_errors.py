@@ -115,6 +115,8 @@ def size_of(size: Any) -> Tuple[int, int]:
         width, height = (operator.index(side) for side in size)
     except (TypeError, ValueError):
         raise WrongType(f"`size` is {size!r:.60}; it is (width, height), whole numbers of pixels") from None
+    if min(width, height) < 1 or max(width, height) > 16_384:
+        raise InvalidValue(f"the size is {width} x {height}; sides are from 1 to 16384 pixels")
     return width, height
 
 

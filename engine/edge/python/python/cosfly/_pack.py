@@ -16,7 +16,7 @@ import numpy as np
 from . import _cosfly
 from ._calls import PathLike, Progress
 from ._dataset import Dataset, warn_of_small_targets
-from ._errors import InvalidValue, OutOfRange, options, path_of
+from ._errors import InvalidValue, OutOfRange, WrongType, options, path_of
 from ._show import Bars
 
 FORMAT = "cosfly-pack-2"
@@ -121,6 +121,8 @@ class Pack(Dataset):
 
     def __init__(self, path: PathLike, dataset: PathLike, **options: Any):
         self.pack_path = Path(path_of(path))
+        if "size" in options:
+            raise WrongType("a pack has the size that it was made with; leave out `size`, or make another pack with `cosfly.pack`")
         about, self._seal = _about(self.pack_path)
         self._first: Dict[str, int] = about["first_frame"]
         self._frames: Dict[str, Frames] = {}
