@@ -32,6 +32,10 @@ impl Variation {
     /// Allowed names and ranges, in words.
     pub fn read(text: &str) -> Result<Self, String> {
         let mut read = Self::NONE;
+        let keys: Vec<&str> = text.split(',').map(|pair| pair.split('=').next().unwrap_or_default()).collect();
+        if let Some((_, twice)) = keys.iter().enumerate().find(|(place, key)| keys[..*place].contains(key)) {
+            return Err(format!("`{twice}` is given twice"));
+        }
         for pair in text.split(',') {
             let known = |key: &str| KEYS.iter().find(|known| known.0 == key);
             let parts = pair.split_once('=').and_then(|(key, value)| Some((known(key)?, value.parse::<f64>().ok()?)));
@@ -125,5 +129,6 @@ mod tests {
             let wrong = Variation::read(text).expect_err(text);
             assert!(wrong.contains("delay_s=0 to 5, gain=0 to 10, lead_s=0 to 2, noise_mps=0 to 20"), "{wrong}");
         }
+        assert_eq!(Variation::read("gain=1,lead_s=1,gain=2").unwrap_err(), "`gain` is given twice");
     }
 }
