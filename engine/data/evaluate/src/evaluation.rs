@@ -170,6 +170,7 @@ fn nothing_to_score(file: &str, flights: &Flights, windows: &WindowSet, joined: 
             refusal.hint(format!(
                 "a row that fits is {{\"trajectory_id\": \"{id}\", \"frame\": 0, \"waypoint_deltas\": [{zero}]}}"
             ))
+            .hint("`--history`, `--horizon`, `--stride` and `--input` cut other windows: give those of the predictions")
         }
         None => refusal,
     }
