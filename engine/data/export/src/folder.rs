@@ -32,7 +32,7 @@ impl OutFolder {
         let shown = target.display();
         let is_free = match std::fs::read_dir(target) {
             Ok(mut entries) => entries.next().is_none(),
-            Err(error) => error.kind() == std::io::ErrorKind::NotFound,
+            Err(_) => std::fs::symlink_metadata(target).is_err(),
         };
         // Not made for nothing; whether the place is free in the end, the folder's appearance says.
         if !is_free {
@@ -122,6 +122,11 @@ mod tests {
         assert_eq!(std::fs::read(target.join("a/b.txt")).unwrap(), b"four");
         assert_eq!(OutFolder::begin(&target, &dataset).unwrap_err().code, "export-exists");
         assert_eq!(OutFolder::begin(&dataset.join("x"), &dataset).unwrap_err().code, "export-inside");
+        assert_eq!(
+            OutFolder::begin(&target.join("a/b.txt/x"), &dataset).unwrap_err().code,
+            "machine-io",
+            "below a file"
+        );
         assert_eq!(std::fs::read_dir(home.path().join("new")).unwrap().count(), 1);
         let out = OutFolder::begin(&home.path().join("other"), &dataset).unwrap();
         for name in ["../dataset/x", "a/../../x", "/tmp/x"] {

@@ -6,7 +6,7 @@ use crate::console::Console;
 use crate::exit;
 use crate::subject::Subject;
 use clap::Args;
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, visible_text};
 use cosfly_fly::again::Again;
 use cosfly_fly::bundle::Bundle;
 use cosfly_fly::pilot::{OnnxPolicy, Runnable};
@@ -75,20 +75,21 @@ impl Arguments {
             None => again.by_record(&*progress)?,
         };
         drop((progress, deadline));
-        let (name, all) = (&bundle.card.policy.name, bundle.episodes.len());
+        let one_line = |text: &str| visible_text(text).replace('\n', " ");
+        let (name, all) = (one_line(&bundle.card.policy.name), bundle.episodes.len());
         let how = if policy.is_some() { "re-run" } else { "re-flown" };
         let same = all - differ.len();
         let come = if all == 1 { "episode comes" } else { "episodes come" };
         let mut text = format!("{name}, {how}: {same} of {all} {come} out the same, byte for byte\n");
         for line in differ.iter().take(SHOWN) {
-            let _ = writeln!(text, "  {line}");
+            let _ = writeln!(text, "  {}", one_line(line));
         }
         if differ.len() > SHOWN {
             let _ = writeln!(text, "  and {} more", differ.len() - SHOWN);
         }
         let here = env!("CARGO_PKG_VERSION");
         if bundle.card.cosfly != here {
-            let _ = writeln!(text, "  flown by cosfly {} before, by cosfly {here} now", bundle.card.cosfly);
+            let _ = writeln!(text, "  flown by cosfly {} before, by cosfly {here} now", one_line(&bundle.card.cosfly));
         }
         console.print(&text)?;
         Ok(if differ.is_empty() { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
