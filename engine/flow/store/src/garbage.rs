@@ -69,6 +69,12 @@ pub struct GarbageReport {
 /// # Errors
 /// `store-in-use` while a run is active (not in a dry run), the errors of opening a store, or `machine-io`.
 pub fn collect_garbage(root: &Path, options: &GarbageOptions) -> Result<GarbageReport> {
+    if Layout::check(root)?.is_none() {
+        let message = format!("there is no store at `{}`", root.display());
+        return Err(Diagnostic::new("store-not-a-store", Fault::Input, message).hint(
+            "name the folder that `cosfly run` had for `--store`; without it that is `.cosfly` in the current folder",
+        ));
+    }
     let layout = Layout::create_or_check(root)?;
     let failed = |error: io::Error| Diagnostic::io(format!("clean the store `{}`", root.display()), &error);
     let _alone = lock(&layout, options.dry_run)?;
@@ -398,6 +404,19 @@ mod tests {
     fn what_recent_runs_and_pins_need_stays_and_the_rest_goes() {
         let root = tempfile::tempdir().unwrap();
         let root = root.path();
+        let nowhere = root.join("nowhere");
+        let refusal = collect_garbage(
+            &nowhere,
+            &GarbageOptions {
+                keep_runs: 1,
+                keep_age: Duration::ZERO,
+                now: SystemTime::now(),
+                pack_from: 1,
+                dry_run: true,
+            },
+        )
+        .unwrap_err();
+        assert!(refusal.code == "store-not-a-store" && !nowhere.exists(), "{refusal}");
         let store = Store::open(root).unwrap();
         run(&store, "oldest");
         pin(root, "r", "paper").unwrap();

@@ -8,9 +8,14 @@ use std::path::{Component, Path, PathBuf};
 /// files of the other. Symbolic links are followed as far as they lead to something that exists.
 ///
 /// # Errors
-/// `out-in-store`, or `machine-io`.
+/// `out-in-store`, `out-not-ours` where a file is in the way, or `machine-io`.
 pub fn check_out_folder(store_root: &Path, out: &Path) -> Result<()> {
     let (store, folder) = (resolved(store_root)?, resolved(out)?);
+    if let Some(file) = folder.ancestors().find(|it| it.exists()).filter(|it| !it.is_dir()) {
+        let message = format!("`{}` exists and is not a folder", file.display());
+        return Err(Diagnostic::new("out-not-ours", Fault::Recipe, message)
+            .hint("choose another folder with `--out`, or move the existing files elsewhere"));
+    }
     let message = if folder == store {
         format!("`{}` is the folder of the store; a dataset cannot be put there", out.display())
     } else if folder.starts_with(&store) {
@@ -56,6 +61,16 @@ mod tests {
         }
         for (store, out) in [("S", "S"), ("S", "S/cas"), ("S", "x/../S/tmp/x"), ("out/S", "out"), (".cosfly", ".")] {
             assert_eq!(check(store, out).unwrap_err().code, "out-in-store", "{store} {out}");
+        }
+    }
+
+    #[test]
+    fn a_file_in_the_way_is_refused_before_any_work() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("file"), "text").unwrap();
+        for out in ["file", "file/out"] {
+            let refusal = check_out_folder(&folder.path().join("S"), &folder.path().join(out)).unwrap_err();
+            assert!(refusal.code == "out-not-ours" && refusal.message.contains("file` exists"), "{refusal}");
         }
     }
 
