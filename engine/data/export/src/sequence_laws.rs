@@ -165,6 +165,25 @@ fn flights_without_a_caption_have_a_sentence_that_fits_vehicles_in_the_language_
 }
 
 #[test]
+fn flights_that_follow_nobody_are_not_told_to_follow() {
+    let home = tempfile::tempdir().unwrap();
+    let mut flights = sample::flights();
+    for flight in &mut flights {
+        flight.captions.clear();
+        flight.record.trajectory.track.radius_m = 0.0;
+    }
+    let encoding = EncodingConfig::default();
+    sample::write_flights(&home.path().join("rounds"), &DatasetConfig::default(), encoding, flights).unwrap();
+    let dataset = PublishedDataset::open(&home.path().join("rounds")).unwrap();
+    for (language, said) in [("en", "Fly the planned way."), ("zh", "按计划的路线飞行。")] {
+        let (files, _) = export(&dataset, "imagefolder", json!({"language": language}), &home.path().join(language));
+        let lines = files.iter().filter(|(path, _)| path.ends_with("metadata.jsonl"));
+        let lines: Vec<&str> = lines.flat_map(|(_, bytes)| std::str::from_utf8(bytes).unwrap().lines()).collect();
+        assert!(!lines.is_empty() && lines.iter().all(|it| it.contains(&format!("\"instruction\":\"{said}\""))));
+    }
+}
+
+#[test]
 fn a_choice_without_a_target_is_refused_and_pictures_are_jpeg_whatever_the_dataset_has() {
     let home = tempfile::tempdir().unwrap();
     let encoding = EncodingConfig { rgb: RgbEncoding::Png, ..EncodingConfig::default() };

@@ -59,11 +59,13 @@ impl InstructionLanguage {
         }
     }
 
-    /// An instruction that fits every target, be it a person or a vehicle.
-    pub fn plain_instruction(self) -> &'static str {
-        match self {
-            Self::En => "Follow the target and keep it in view.",
-            Self::Zh => "跟随目标，让它一直在画面里。",
+    /// An instruction that fits every target, be it a person or a vehicle, and one for a flight that follows nobody.
+    pub fn plain_instruction(self, has_target: bool) -> &'static str {
+        match (self, has_target) {
+            (Self::En, true) => "Follow the target and keep it in view.",
+            (Self::Zh, true) => "跟随目标，让它一直在画面里。",
+            (Self::En, false) => "Fly the planned way.",
+            (Self::Zh, false) => "按计划的路线飞行。",
         }
     }
 

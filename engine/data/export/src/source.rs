@@ -126,7 +126,10 @@ impl<'a> Source<'a> {
         let flights = |ids: &BTreeSet<String>| cosfly_diagnose::counted(ids.len(), "flight");
         let remarks = [
             (other, "without a caption in the language asked for: the instruction is in another one"),
-            (plain, "without a caption: the instruction is the same plain sentence for all, and singles nobody out"),
+            (
+                plain,
+                "without a caption: the instruction is a plain sentence, the same for all that follow somebody, and singles nobody out",
+            ),
         ];
         remarks
             .into_iter()
@@ -368,6 +371,6 @@ impl ExportedFlight<'_> {
         let [other, plain] = &mut *self.source.fallen_back.borrow_mut();
         let list = if first.is_some() { other } else { plain };
         list.insert(self.flight.trajectory_id.clone());
-        first.map_or(language.plain_instruction(), |caption| &caption.text)
+        first.map_or(language.plain_instruction(self.flight.target_kind.is_some()), |caption| &caption.text)
     }
 }
