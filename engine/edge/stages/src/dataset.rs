@@ -45,7 +45,7 @@ impl StageKind for Dataset {
         // A new column or table makes manifest and card anew without a raised version.
         parameters["tables"] = Digest::of(cosfly_schema::reference().as_bytes()).short().into();
         let whole = StageProperties {
-            version: 20,
+            version: 21,
             parameters,
             inputs: vec![
                 towns(),

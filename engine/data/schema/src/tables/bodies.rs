@@ -34,7 +34,7 @@ columns! { Bodies::COLUMNS of DatasetItem;
     /// Id in instance images and in `frames.occluder_instance`: greater than those of all objects; null for a body that no
     /// picture of the trajectory can show.
     instance: Option<u32> = |item, i| other(item, i).map(|it| it.instance);
-    /// Kind: `pedestrian`, `bicycle`, `motorcycle`, `car`, `van`, `truck`, `bus` or `drone`.
+    /// Kind, such as `pedestrian`, `push_chair` or `car`: a word of `follow.kinds` of stage `traffic`, or `drone`.
     kind: String = |item, i| plan(item, i).kind.name().to_owned();
     /// Number of the group that the body moves with; null where it moves alone.
     group: Option<u32> = |item, i| plan(item, i).group;

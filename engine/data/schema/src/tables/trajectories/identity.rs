@@ -20,7 +20,8 @@ columns! { Trajectories::IDENTITY of DatasetItem;
     expert_id: Option<String> = |item, _| item.record.pair.as_ref().map(|pair| pair.expert_id.clone());
     /// Pedestrian who is followed; all trajectories behind one pedestrian are in the same split.
     pedestrian_id: String = |item, _| item.record.pedestrian_id.clone();
-    /// Kind of the target: `pedestrian`, `bicycle`, `motorcycle`, `car`, `van`, `truck` or `bus`; null for a target without a body.
+    /// Kind of the target, such as `pedestrian`, `push_chair` or `car`: a word of `follow.kinds` of stage `traffic`; null for a
+    /// target without a body.
     target_kind: Option<String> = |item, _| item.record.target_kind().map(|kind| kind.name().to_owned());
     /// Id of the target as `bodies.body_id` of other trajectories has it; null outside of stage `traffic`.
     target_body_id: Option<String> = |item, _| item.record.followed.as_ref().filter(|it| !it.traffic.is_empty()).map(|it| Traffic::body_id(&it.traffic, it.number));
