@@ -1,6 +1,6 @@
 //! `render`: cost of pictures by stage, and throughput of finished logs.
 
-use super::outcome::{Outcome, Refusals, print, print_report};
+use super::outcome::{Outcome, Refusals, print_report};
 use clap::Args;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_domain::{Camera, Weather};
@@ -20,8 +20,7 @@ Examples:
   cosfly-lab render --json                                 the same for machines
   cosfly-lab render --weather ClearSunset --rounds 3       another weather, less noise
   cosfly-lab render --width 3840 --height 2160 --views 4   4K
-  cosfly-lab render --town my.xodr                         another town
-  cosfly-lab render --boxes boxes.json                     boxes and cameras for the scripts in tests/outside/render_anchors";
+  cosfly-lab render --town my.xodr                         another town";
 
 /// Arguments of `render`.
 #[derive(Args, Debug)]
@@ -53,21 +52,11 @@ pub struct RenderArguments {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
-    /// Measure nothing; write the boxes and cameras of the second town as JSON
-    #[arg(long, value_name = "FILE")]
-    pub boxes: Option<PathBuf>,
 }
 
-/// Measures, or exports the boxes.
+/// Measures.
 pub fn render(arguments: &RenderArguments) -> Outcome {
     let camera = camera(arguments)?;
-    if let Some(file) = &arguments.boxes {
-        let scene = Ground::of_boxes(arguments.box_count, camera, arguments.views).exported();
-        let text = serde_json::to_string(&scene).unwrap_or_default() + "\n";
-        std::fs::write(file, text)
-            .map_err(|error| vec![Diagnostic::io(format!("write `{}`", file.display()), &error)])?;
-        return print(&format!("{} boxes and {} views in {}\n", scene.boxes.len(), scene.views.len(), file.display()));
-    }
     let scratch = std::env::current_dir()
         .and_then(tempfile::tempdir_in)
         .map_err(|error| vec![Diagnostic::io("make a scratch folder here", &error)])?;

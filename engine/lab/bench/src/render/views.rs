@@ -12,7 +12,6 @@ use cosfly_places::grid::{GenerateConfig, generate_town};
 use cosfly_random::Seed;
 use cosfly_render::Scene;
 use cosfly_town::MapError;
-use serde::Serialize;
 
 /// Distance from the camera to the target, metres.
 const DISTANCE_M: f64 = 28.0;
@@ -120,29 +119,6 @@ impl Ground {
         view.target.gait_phase_rad = gait_phase_rad(way_m, HEIGHT_M);
         view
     }
-
-    /// Boxes and views for other renderers.
-    pub fn exported(&self) -> ExportedScene {
-        let boxes = self.town.obstacles.iter().map(|obstacle| ExportedBox {
-            center_m: obstacle.shape.center_in_world.to_array(),
-            half_extents_m: obstacle.shape.half_extents_m.to_array(),
-            yaw_rad: obstacle.shape.yaw_rad,
-            instance: obstacle.object_id + 2,
-        });
-        let views = self.views.iter().map(|view| ExportedView {
-            position_m: view.pose.position_in_world.to_array(),
-            world_from_body: view.pose.world_from_body().to_cols_array_2d(),
-        });
-        ExportedScene {
-            frame: "left-handed: x ahead, y right, z up; body: x along the optical axis, y right, z up; columns first",
-            width: self.camera.width,
-            height: self.camera.height,
-            focal_px: self.camera.focal_px(),
-            ground_m: [self.town.min_in_world.to_array(), self.town.max_in_world.to_array()],
-            boxes: boxes.collect(),
-            views: views.collect(),
-        }
-    }
 }
 
 /// Follower of a target at `feet`: the first of eight directions without an occluder.
@@ -223,47 +199,6 @@ fn box_town(boxes: usize) -> Town {
     }
 }
 
-/// A town exported for other renderers.
-#[derive(Clone, Debug, Serialize)]
-pub struct ExportedScene {
-    /// Meaning of the axes.
-    pub frame: &'static str,
-    /// Width, pixels.
-    pub width: u32,
-    /// Height, pixels.
-    pub height: u32,
-    /// Focal length, pixels; the optical axis goes through the centre of the image.
-    pub focal_px: f64,
-    /// Corners of the town, metres; the ground is at the height of the first.
-    pub ground_m: [[f64; 3]; 2],
-    /// Boxes, rotated around the vertical axis.
-    pub boxes: Vec<ExportedBox>,
-    /// Cameras.
-    pub views: Vec<ExportedView>,
-}
-
-/// An exported box.
-#[derive(Clone, Debug, Serialize)]
-pub struct ExportedBox {
-    /// Centre, metres.
-    pub center_m: [f64; 3],
-    /// Half the size along its own axes, metres.
-    pub half_extents_m: [f64; 3],
-    /// Rotation around z, radians; positive: x towards y.
-    pub yaw_rad: f64,
-    /// Instance id.
-    pub instance: u32,
-}
-
-/// An exported camera.
-#[derive(Clone, Debug, Serialize)]
-pub struct ExportedView {
-    /// Position of the optical centre, metres.
-    pub position_m: [f64; 3],
-    /// Rotation matrix: the camera's axes as three columns.
-    pub world_from_body: [[f64; 3]; 3],
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -281,7 +216,6 @@ mod tests {
             let (eye, feet) = (view.pose.position_in_world, view.target.state.feet_in_world);
             assert!(!tree.blocked(eye, feet + DVec3::Z), "{eye}");
         }
-        assert_eq!(ground.exported().boxes.len(), 2000);
         for view in &ground.from_above(60.0).views {
             let ahead = view.pose.world_from_body() * DVec3::X;
             let feet = view.pose.position_in_world + 60.0 * ahead;
