@@ -10,7 +10,7 @@ from itertools import groupby
 from pathlib import Path
 
 import numpy as np
-from shared import Town, end_with, place, rows, turned
+from shared import Town, end_with, flown, place, rows, turned
 
 BETWEEN, FAR_M = 20, 40
 # People are circles from above, all others boxes.
@@ -56,11 +56,7 @@ def main(folder):
     for row in rows(folder, "rejected", ["trajectory_id", "reason"]) if (folder / "data/rejected").is_dir() else []:
         if "occlusion" in row["reason"]:
             wrong.append(f"{row['trajectory_id']} was rejected for its parameters: {row['reason']}")
-    flights = {row["trajectory_id"]: row for row in rows(folder, "trajectories", [
-        "trajectory_id", "town", "target_kind", "target_top_colour", "target_trousers_colour", "target_has_backpack", "min_clearance_m", "dt_s"])}
-    frames = defaultdict(dict)
-    for row in rows(folder, "frames", ["trajectory_id", "frame", "drone_x_m", "drone_y_m", "drone_z_m", "visible_pixels", "in_view", "look_alikes"]):
-        frames[row["trajectory_id"]][row["frame"]] = row
+    flights, frames, _ = flown(folder, ["drone_x_m", "drone_y_m", "drone_z_m", "visible_pixels", "in_view", "look_alikes"], ["kind"])
     bodies = defaultdict(lambda: defaultdict(dict))
     for row in rows(folder, "bodies", ["trajectory_id", "frame", "body_id", "kind", "feet_in_world_m", "heading_deg", "size_m"]):
         bodies[row["trajectory_id"]][row["frame"]][row["body_id"]] = row

@@ -110,20 +110,15 @@ def small_folders():
 
 
 def vlm():
-    """The rules of both tools' readers; the answers lead from the current pose to the expert's (world frame)."""
+    """Five pictures of the size that the text says; the answers lead from the current pose to the expert's (world frame)."""
     root, windows = folder / "vlm", 0
-    for name, entry in json.loads((root / "dataset_info.json").read_text()).items():
-        assert entry["tags"] == {f"{name}_tag": name for name in ("role", "content", "user", "assistant", "system")}, entry
-        assert entry["formatting"] == "sharegpt" and entry["columns"] == {"messages": "messages", "images": "images"}
+    for entry in json.loads((root / "dataset_info.json").read_text()).values():
         lines = datasets.load_dataset("json", data_files=str(root / entry["file_name"]), split="train", cache_dir=cache)
         for row in lines:
-            assert not {"rejected_response", "rejected_messages", "objects", "videos", "audios"} & set(row), "keys with a meaning of their own"
-            assert [message["role"] for message in row["messages"]] == ["system", "user", "assistant"]
-            text = "".join(message["content"] for message in row["messages"][1:])  # LLaMA-Factory does not search the first for `<image>`
-            assert text.count("<image>") == len(row["images"]) == 5
+            assert len(row["images"]) == 5
             for image in row["images"]:
                 with Image.open(root / image) as picture:
-                    assert picture.width <= 448 and f"pixels of {picture.width} x {picture.height}" in text
+                    assert picture.width <= 448 and f"pixels of {picture.width} x {picture.height}" in row["messages"][1]["content"]
                     picture.verify()
             deltas = json.loads(row["messages"][2]["content"])["waypoint_deltas"]
             assert len(deltas) == 5 and all(len(delta) == 6 for delta in deltas)

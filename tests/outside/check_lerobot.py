@@ -10,24 +10,23 @@ from pathlib import Path
 import datasets
 import numpy as np
 import pandas as pd
-from shared import messages, pixels, turned, world_from_body
+from shared import flown, messages, pixels, turned, world_from_body
 from shared import rows as rows_of
 
 dataset, export, cache = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
 RGB, DEPTH, SENSORS = "observation.images.rgb", "observation.images.depth", "observation.sensors"
 QUANTILES = {"q01": 0.01, "q10": 0.1, "q50": 0.5, "q90": 0.9, "q99": 0.99}
-poses = {(row["trajectory_id"], row["frame"]): row for row in rows_of(dataset, "frames")}
-flights = {row["trajectory_id"]: row for row in rows_of(dataset, "trajectories")}
+flights, poses, _ = flown(dataset, of_bodies=["kind"])
 
 
 def state(flight, frame):
-    row = poses[flight, frame]
+    row = poses[flight][frame]
     return np.array([row[f"drone_{name}"] for name in ("x_m", "y_m", "z_m", "pitch_deg", "yaw_deg", "roll_deg")])
 
 
 def expert(flight, frame):
     """The expert's pose that belongs to a frame of a flight; at the end of the flight, the expert waits."""
-    row = poses[flight, min(frame, flights[flight]["frames"] - 1)]
+    row = poses[flight][min(frame, flights[flight]["frames"] - 1)]
     expert_id = flights[flight]["expert_id"] or flight
     return state(expert_id, row["expert_frame"] if row["expert_frame"] is not None else row["frame"])
 
@@ -121,7 +120,7 @@ def check_sensors(info, rows, episodes):
             flight = episode["trajectory_id"]
             of_flight = readings[readings["trajectory_id"] == flight]
             for frame in range(episode["length"]):
-                last = of_flight[of_flight["time_s"] <= poses[flight, frame]["time_s"] + 1e-9].iloc[-1]
+                last = of_flight[of_flight["time_s"] <= poses[flight][frame]["time_s"] + 1e-9].iloc[-1]
                 wanted = np.float32(last[columns].astype(float))
                 assert np.array_equal(found[episode["dataset_from_index"] + frame][own], wanted, equal_nan=True), (sensor, flight, frame)
     print(f"lerobot, {len(names)} numbers of sensors of {len(found)} frames are the last ones of the tables")

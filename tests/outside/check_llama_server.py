@@ -38,7 +38,6 @@ def tiny_model(path):
     }.items():
         getattr(writer, f"add_{key}")(value)
     random = np.random.default_rng(1)
-    weights = lambda *shape: (random.standard_normal(shape) * 0.05).astype(np.float32)
     shapes = {"token_embd": (len(tokens), WIDTH), "output": (len(tokens), WIDTH), "output_norm": WIDTH}
     for layer in range(LAYERS):
         shapes |= {f"blk.{layer}.{name}": (WIDTH, WIDTH) for name in ("attn_q", "attn_k", "attn_v", "attn_output")}

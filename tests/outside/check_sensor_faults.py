@@ -191,9 +191,8 @@ def sensor(name, change):
                 spoilt[field] = columns[field][ids == first.stem]
 
         def of_log(message, number, former):
-            for field in message.DESCRIPTOR.fields:
-                if field.name in spoilt and field.cpp_type == field.CPPTYPE_DOUBLE:
-                    setattr(message, field.name, spoilt[field.name][number])
+            for name in spoilt.keys() & numbers_of(message):
+                setattr(message, name, spoilt[name][number])
         copy.table(name, of_first)
         copy.log(f"/sensor/{name}", of_log)
     return both
@@ -220,43 +219,22 @@ def flow_of_bodies(copy):
     copy.log("/camera/flow_forward/image", change)
 
 
-def cloud(name, change):
-    """Changes the points of each sweep of a table, and of its log."""
-    def of_table(columns):
-        clouds = []
-        for bytes_ in columns["cloud"]:
-            points = np.frombuffer(bytes_, POINT).copy()
-            change(points, 1)
-            clouds.append(points.tobytes())
-        columns["cloud"] = clouds
+def cloud(name, field, value):
+    """Other values of a field of the points of each sweep of a table, and of its log, whose y goes to the left."""
+    def spoilt(data, mirror=1):
+        points = np.frombuffer(data, POINT).copy()
+        points["place"][:, 1] *= mirror
+        points[field] = value(points[field])
+        points["place"][:, 1] *= mirror
+        return points.tobytes()
 
     def of_log(message, number, former):
-        points = np.frombuffer(message.data, POINT).copy()
-        points["place"][:, 1] *= -1
-        change(points, 1)
-        points["place"][:, 1] *= -1
-        message.data = points.tobytes()
+        message.data = spoilt(message.data, -1)
 
     def both(copy):
-        copy.table(name, of_table)
+        copy.table(name, lambda columns: columns.update(cloud=list(map(spoilt, columns["cloud"]))))
         copy.log(f"/sensor/{name}", of_log)
     return both
-
-
-def set_places(factor):
-    def change(points, _):
-        points["place"] *= factor
-    return change
-
-
-def swap_places(points, _):
-    points["place"] = points["place"][:, [1, 0, 2]]
-
-
-def set_field(name, value):
-    def change(points, _):
-        points[name] = value(points[name])
-    return change
 
 
 def left_for_right(columns):
@@ -275,14 +253,16 @@ def shown(columns):
     columns["key_points_shown"] = [it and [{2: 1, 1: 2}.get(k, k) for k in it] for it in columns["key_points_shown"]]
 
 
+def numbers_of(message):
+    return [it.name for it in message.DESCRIPTOR.fields if it.cpp_type == it.CPPTYPE_DOUBLE]
+
+
 def reading_of_log(message, number, former):
-    field = [it.name for it in message.DESCRIPTOR.fields if it.cpp_type == it.CPPTYPE_DOUBLE][0]
-    setattr(message, field, -1.01 * getattr(message, field) - 0.01)
+    setattr(message, numbers_of(message)[0], -1.01 * getattr(message, numbers_of(message)[0]) - 0.01)
 
 
 def half_a_second_later(message, number, former):
-    first = [it.name for it in message.DESCRIPTOR.fields if it.cpp_type == it.CPPTYPE_DOUBLE]
-    for name in first:
+    for name in numbers_of(message):
         setattr(message, name, getattr(former[max(number - 100, 0)], name))
 
 
@@ -302,32 +282,25 @@ def readout(factor, is_in_log=True):
 
 FORCE, RATE = [f"force_{a}_mps2" for a in "xyz"], [f"rate_{a}_rad_s" for a in "xyz"]
 FIELD = [f"field_{a}_ut" for a in "xyz"]
+BY_TWO, BEFORE, MIRRORED = (lambda it, *_: it * np.float32(1.02)), (lambda it, n, old: old[-1] if n else it), (lambda it, *_: it[:, ::-1])
 IMAGES = {
+    **{f"{channel} {fault}": (channel, change) for channels, fault, change in (
+        ("depth_stereo depth_sensor flow_forward flow_back", "scaled", BY_TWO),
+        ("disparity depth_stereo depth_sensor normals mask mask_amodal flow_forward", "of the frame before", BEFORE),
+        ("depth_stereo depth_sensor", "mirrored", MIRRORED),
+    ) for channel in channels.split()},
     "disparity scaled": ("disparity", lambda it, *_: it * np.float32(1.01)),
-    "disparity of the frame before": ("disparity", lambda it, n, old: old[-1] if n else it),
-    "depth_stereo scaled": ("depth_stereo", lambda it, *_: it * np.float32(1.02)),
-    "depth_stereo of the frame before": ("depth_stereo", lambda it, n, old: old[-1] if n else it),
-    "depth_stereo mirrored": ("depth_stereo", lambda it, *_: it[:, ::-1]),
-    "depth_sensor scaled": ("depth_sensor", lambda it, *_: it * np.float32(1.02)),
-    "depth_sensor of the frame before": ("depth_sensor", lambda it, n, old: old[-1] if n else it),
-    "depth_sensor mirrored": ("depth_sensor", lambda it, *_: it[:, ::-1]),
     "depth_sensor in millimetres": ("depth_sensor", lambda it, *_: it * np.float32(1000)),
     "normals flipped": ("normals", lambda it, *_: 255 - it if it.dtype == np.uint8 else -it),
     "normals with swapped axes": ("normals", lambda it, *_: it[..., [1, 0, 2]]),
-    "normals of the frame before": ("normals", lambda it, n, old: old[-1] if n else it),
     "mask empty": ("mask", lambda it, *_: it * 0),
-    "mask of the frame before": ("mask", lambda it, n, old: old[-1] if n else it),
     "mask_amodal is the mask": ("mask_amodal", lambda it, n, old: np.where(np.cumsum(it, 1) % 2, it, 0).astype(it.dtype)),
-    "mask_amodal of the frame before": ("mask_amodal", lambda it, n, old: old[-1] if n else it),
-    "flow scaled by 1.02": ("flow_forward", lambda it, *_: it * np.float32(1.02)),
-    "flow back scaled by 1.02": ("flow_back", lambda it, *_: it * np.float32(1.02)),
-    "flow flipped": ("flow_forward", lambda it, *_: -it),
-    "flow with swapped axes": ("flow_forward", lambda it, *_: it[..., ::-1]),
-    "flow of the frame before": ("flow_forward", lambda it, n, old: old[-1] if n else it),
-    "mask of flow inverted": ("flow_forward_valid", lambda it, n, old: 1 - it),
-    "mask of flow all 1": ("flow_forward_valid", lambda it, n, old: it * 0 + it.any()),
-    "mask of flow all 0": ("flow_forward_valid", lambda it, n, old: it * 0),
-    "mask of flow of the frame before": ("flow_back_valid", lambda it, n, old: old[-1] if n > 1 else it),
+    "flow_forward flipped": ("flow_forward", lambda it, *_: -it),
+    "flow_forward with swapped axes": ("flow_forward", lambda it, *_: it[..., ::-1]),
+    "flow_forward_valid inverted": ("flow_forward_valid", lambda it, n, old: 1 - it),
+    "flow_forward_valid all 1": ("flow_forward_valid", lambda it, n, old: it * 0 + it.any()),
+    "flow_forward_valid all 0": ("flow_forward_valid", lambda it, n, old: it * 0),
+    "flow_back_valid of the frame before": ("flow_back_valid", lambda it, n, old: old[-1] if n > 1 else it),
 }
 FAULTS = {
     **{name: image(*what) for name, what in IMAGES.items()},
@@ -361,14 +334,14 @@ FAULTS = {
     "odometry: velocity flipped": sensor("odometry", scale(-1, "velocity_x_mps")),
     "odometry: velocity scaled": sensor("odometry", scale(1.05, "velocity_x_mps", "velocity_y_mps", "velocity_z_mps")),
     "odometry: a second later": sensor("odometry", later(1.0)),
-    "lidar: ranges scaled": cloud("vlp16", set_places(1.03)),
-    "lidar: axes swapped": cloud("vlp16", swap_places),
-    "lidar: to the left": cloud("vlp16", set_places(np.array([1, -1, 1], "f4"))),
-    "lidar: labels of something else": cloud("vlp16", set_field("label", lambda it: np.where(it == 3, 9, it))),
-    "lidar: instances of something else": cloud("vlp16", set_field("instance", lambda it: np.where(it > 1, it + 1, it))),
-    "lidar: intensity doubled": cloud("vlp16", set_field("intensity", lambda it: 2 * it)),
+    "lidar: ranges scaled": cloud("vlp16", "place", lambda it: 1.03 * it),
+    "lidar: axes swapped": cloud("vlp16", "place", lambda it: it[:, [1, 0, 2]]),
+    "lidar: to the left": cloud("vlp16", "place", lambda it: it * [1, -1, 1]),
+    "lidar: labels of something else": cloud("vlp16", "label", lambda it: np.where(it == 3, 9, it)),
+    "lidar: instances of something else": cloud("vlp16", "instance", lambda it: np.where(it > 1, it + 1, it)),
+    "lidar: intensity doubled": cloud("vlp16", "intensity", lambda it: 2 * it),
     "lidar: a sweep later": table("vlp16", later(0.3)),
-    "lidar: times backwards": cloud("vlp16", set_field("time", lambda it: 0.1 - it)),
+    "lidar: times backwards": cloud("vlp16", "time", lambda it: 0.1 - it),
     "boxes: others turned": table("bodies_3d", others_turned),
     "boxes: size scaled": table("bodies_3d", lambda columns: columns.update(size_m=[[1.05 * v for v in it] for it in columns["size_m"]])),
     "key points: left for right": table("bodies_3d", left_for_right),

@@ -24,7 +24,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 from PIL import Image
-from shared import COLOURS, bytes_of, json_lines, rows
+from shared import COLOURS, bytes_of, rows
 
 KEY = "sk-4f0c1d7e9b2a86355aQx"
 VARIABLE = "COSFLY_TEST_TEACHER_KEY"
@@ -240,35 +240,11 @@ def check_rows(texts, flights, hostile):
 
 
 def check_students(cosfly, work):
-    """The sets for students: lines that LLaMA-Factory (sharegpt, ranking) and ms-swift (rejected_response) document."""
-    print("students: windows, shares, texts, pairs")
+    """The sets for students: windows, shares, texts, pairs. `check_vlm_loaders.py` reads them."""
     out = work / "students"
     run([cosfly, "export", work / "hostile", "--format", "vlm", "--sets", "students", "--input", "mixed", "--out", out])
-    registered = json.loads((out / "dataset_info.json").read_text())
-    files = {path.stem: json_lines(path) for path in out.glob("*.jsonl")}
-    assert {f"cosfly_{name}" for name in files if not name.endswith("_swift")} == set(registered), (files.keys(), registered.keys())
-    for name, lines in files.items():
-        assert len({row["id"] for row in lines}) == len(lines) > 0, name
-        is_ranking = name.endswith("_preferences")
-        for row in lines:
-            roles, asked = [message["role"] for message in row["messages"]], row["messages"][1]["content"]
-            assert roles == ["system", "user", "assistant"][: 2 if is_ranking else 3], (name, roles)
-            assert asked.count("<image>") == len(row["images"]) and all((out / picture).is_file() for picture in row["images"]), (name, row["id"])
-            if is_ranking:
-                assert registered[f"cosfly_{name}"]["ranking"] is True and row["chosen"]["role"] == row["rejected"]["role"] == "assistant"
-                assert row["chosen"]["content"] != row["rejected"]["content"] and row["rejected"]["content"].strip()
-            assert not name.endswith("_swift") or row["rejected_response"].strip()
-            about_goals = name.endswith(("_goals", "_goal_checks", "_dialogues"))
-            assert ("Poses" in asked) == (not about_goals and "no_poses" not in name and "pictures_only" not in name), name
-            if name.endswith("_goal_checks"):
-                answer = json.loads(row["messages"][2]["content"])
-                assert answer["fits"] == (answer["false_subject"] is None), row
-            if name.endswith("_dialogues"):
-                assert "Pilot: " in asked and json.loads(row["messages"][2]["content"])["claims"], row
-    assert all(any(name.endswith(end) for name in files) for end in ("_goal_checks", "_dialogues")), files.keys()
-    pairs, of_swift = (sum(len(lines) for name, lines in files.items() if name.endswith(end)) for end in ("_preferences", "_swift"))
-    assert pairs == of_swift > 0
-    print(f"  {len(files)} files, {pairs} pairs")
+    names = [path.stem for path in out.glob("*.jsonl")]
+    assert all(any(name.endswith(end) for name in names) for end in ("_goal_checks", "_dialogues", "_preferences", "_swift")), names
 
 
 def check_hostile_town(cosfly, work):

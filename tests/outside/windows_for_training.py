@@ -23,30 +23,16 @@ def of_role(windows, role):
     return windows.filter(windows["role"].to_numpy() == role)
 
 
-def learnt(windows, role, answer):
-    """What is seen of a flight and what is learnt: `correction`, the expert's poses in the same frames; `waypoint_deltas`, what the expert does
-    next. The flight is the expert's own (role 0) or the perturbed one (role 1)."""
-    chosen = of_role(windows, role)
-    return steps(chosen["input_steps_in_body"]), steps(chosen[f"{answer}_in_body"])
-
-
-def mixed(windows, share_of_experts, seed):
-    """DAgger-style: the expert's windows and, for the rest, the perturbed ones with the expert's answer."""
-    draws = np.random.default_rng(seed)
-    inputs, answers = zip(*(learnt(windows, role, "waypoint_deltas") for role in (0, 1)))
-    count = min(len(part) for part in inputs)
-    from_expert = draws.random(count) < share_of_experts
-    pick = lambda parts: np.where(from_expert[:, None, None], parts[0][:count], parts[1][:count])
-    return pick(inputs), pick(answers)
-
-
-def contrastive_pairs(windows):
-    """The same moments as the expert and as the perturbed flight saw them."""
+def check_contents(windows):
+    """What is seen of a flight and what is learnt: the expert's poses in the same frames (`correction`) and what it does next. Twins have a window of
+    their expert at each of their moments, for pairs of both."""
     experts, twins = (of_role(windows, role) for role in (0, 1))
-    moments = lambda table: zip(table["expert_id"].to_pylist(), table["start_frame"].to_pylist())
-    places = {moment: row for row, moment in enumerate(moments(experts))}
-    partner = [places[moment] for moment in moments(twins)]
-    return steps(experts["input_steps_in_body"])[partner], steps(twins["input_steps_in_body"])
+    for name, part, answer in (("denoising", twins, "correction"), ("prediction", experts, "waypoint_deltas"), ("mixed", twins, "waypoint_deltas")):
+        seen, answers = steps(part["input_steps_in_body"]), steps(part[f"{answer}_in_body"])
+        require(len(seen) == len(answers) > 0 and np.isfinite(seen).all() and np.isfinite(answers).all(), name)
+        said(name, f"{seen.shape} {answers.shape}")
+    moments = lambda table: set(zip(table["expert_id"].to_pylist(), table["start_frame"].to_pylist()))
+    require(moments(twins) <= moments(experts), "a window of a twin has no partner")
 
 
 def way(of, to):
@@ -89,12 +75,7 @@ dataset = Path(sys.argv[2])
 table = ds.dataset(dataset / "data" / "windows").to_table()
 require(table.num_rows > 0, "there are no windows")
 check_against_poses(dataset, table)
-for name, (seen, answers) in {
-    "denoising": learnt(table, 1, "correction"), "prediction": learnt(table, 0, "waypoint_deltas"),
-    "mixed": mixed(table, 0.5, 0), "contrastive pairs": contrastive_pairs(table),
-}.items():
-    require(len(seen) == len(answers) > 0 and np.isfinite(seen).all() and np.isfinite(answers).all(), name)
-    said(name, f"{seen.shape} {answers.shape}")
+check_contents(table)
 ranks = table["subset_rank"].to_numpy()
 quarter, half = set(np.flatnonzero(ranks < 0.25)), set(np.flatnonzero(ranks < 0.5))
 require(quarter <= half, "subsets do not nest")
