@@ -4,6 +4,7 @@
 use crate::clock::{thread_cpu_s, timed};
 use crate::geometry_contenders::{Contender, Obvhs2, ObvhsCw, Parry, ParryWalk};
 use crate::geometry_scenes::{BenchTown, RAYS, View};
+use crate::median::median;
 use cosfly_frames::DVec3;
 use cosfly_frames::simd::Level;
 use cosfly_geometry::{BoxBvh, BruteForce, SpatialQuery};
@@ -266,11 +267,6 @@ fn measure(tasks: &mut [Task<'_>], count: usize, answers: usize) -> Vec<Figure> 
         }
     }
     tasks.iter().map(|task| Figure { name: task.name, value: median(task.rates.clone()) }).collect()
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
 }
 
 /// Largest figure of a contender other than cosfly.

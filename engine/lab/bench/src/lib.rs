@@ -7,6 +7,7 @@ pub mod geometry;
 pub mod geometry_contenders;
 pub mod geometry_scenes;
 pub mod look;
+pub mod median;
 pub mod people;
 pub mod planner;
 pub mod render;

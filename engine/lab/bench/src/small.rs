@@ -171,7 +171,6 @@ fn row(
             others,
             weather: None,
             look: content.look(),
-            figures: &[],
         })
         .collect();
     let mut drawn = Drawn::new(content, (size * size) as usize, views.len());

@@ -46,7 +46,6 @@ fn main() {
             others: &place.others,
             weather: None,
             look,
-            figures: &[],
         })
         .collect();
     let mut renderer = BatchRenderer::new(side, side);

@@ -34,4 +34,4 @@ pub use on_request::OnRequest;
 pub use outputs::Outputs;
 pub use renderer::BatchRenderer;
 pub use scene::BatchScene;
-pub use view::{BatchView, Figure};
+pub use view::BatchView;

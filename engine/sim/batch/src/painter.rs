@@ -1,4 +1,4 @@
-//! One picture: boxes from near to far, ground, people, other figures; then the channels.
+//! One picture: boxes from near to far, ground, bodies; then the channels.
 
 mod bodies;
 
@@ -92,7 +92,6 @@ impl Painter {
             self.colours.draw(self.level, view, &self.canvas, (&self.faces, &self.parts), rgb);
         }
         if outputs.has_geometry() {
-            self.draw_figures(&eye, view.figures);
             resolve(self.level, &self.canvas, &self.faces, outputs);
         }
         if !outputs.on_request.is_empty() {

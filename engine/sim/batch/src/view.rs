@@ -3,7 +3,7 @@
 use crate::scene::BatchScene;
 use cosfly_domain::Weather;
 use cosfly_figures::{Bystander, Walker};
-use cosfly_frames::{DVec3, Pose};
+use cosfly_frames::Pose;
 use cosfly_render::PictureLook;
 
 /// One picture of a batch.
@@ -24,17 +24,4 @@ pub struct BatchView<'a> {
     pub weather: Option<&'a Weather>,
     /// Look of the colours.
     pub look: PictureLook,
-    /// Everything else that moves, as triangles; they are not in colours.
-    pub figures: &'a [Figure<'a>],
-}
-
-/// Something that moves, as a closed surface.
-#[derive(Clone, Copy, Debug)]
-pub struct Figure<'a> {
-    /// Corners of the triangles in the world frame, metres; both sides are drawn.
-    pub triangles_in_world: &'a [[DVec3; 3]],
-    /// CARLA label id.
-    pub label: u8,
-    /// Instance id.
-    pub instance: u32,
 }

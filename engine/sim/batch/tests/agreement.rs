@@ -66,7 +66,6 @@ fn small(scene: &BatchScene, place: &Place, size: u32) -> Pictures {
         others: &place.others,
         weather: None,
         look: PictureLook::Simple,
-        figures: &[],
     };
     let outputs = Outputs {
         depth_m: Some(&mut pictures.depth_m),

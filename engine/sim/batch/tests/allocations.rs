@@ -54,7 +54,6 @@ fn the_second_batch_allocates_nothing() {
             others: &place.others,
             weather: None,
             look: PictureLook::Simple,
-            figures: &[],
         })
         .collect();
     let mut renderer = BatchRenderer::new(84, 84);

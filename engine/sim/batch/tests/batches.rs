@@ -29,7 +29,6 @@ fn view<'a>(scene: &'a BatchScene, place: &'a Place) -> BatchView<'a> {
         others: &place.others,
         weather: None,
         look: PictureLook::Simple,
-        figures: &[],
     }
 }
 

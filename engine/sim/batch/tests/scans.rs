@@ -41,7 +41,6 @@ fn small_pictures_of_a_mesh_are_those_of_the_large_renderer() {
         others: &[],
         weather: None,
         look: PictureLook::Full,
-        figures: &[],
     };
     let pixels = (SIDE * SIDE) as usize;
     let (mut rgb, mut depth_m, mut mask, mut up) =

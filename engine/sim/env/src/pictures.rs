@@ -88,7 +88,6 @@ impl Pictures {
                 others,
                 weather: weather(format, environment),
                 look: format.look,
-                figures: &[],
             })
             .collect();
         let pixels = format.pixels();

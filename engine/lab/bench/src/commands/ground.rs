@@ -29,6 +29,12 @@ pub fn weather(name: &str) -> Result<Weather, Refusals> {
     })
 }
 
+/// Weathers of the presets that were asked for, or of the usual ones, with the sun in the south-west.
+pub fn weathers(names: &[String], usual: &[&str]) -> Result<Vec<Weather>, Refusals> {
+    let names = if names.is_empty() { usual.to_vec() } else { names.iter().map(String::as_str).collect() };
+    names.into_iter().map(|name| Ok(Weather { sun_azimuth_angle: 215.0, ..weather(name)? })).collect()
+}
+
 /// The season of a name.
 pub fn season(name: &str) -> Result<Season, &'static str> {
     Season::named(name).ok_or("the seasons are summer, autumn, winter")

@@ -56,16 +56,8 @@ pub fn look(arguments: &LookArguments) -> Outcome {
     let ground = super::ground::of_town(arguments.town.as_deref(), camera, arguments.views)?;
     let mut ground = arguments.down.map(f64::from).into_iter().fold(ground, Ground::from_above);
     ground.scene = ground.scene.in_season(arguments.season);
-    let names: Vec<&str> = match arguments.weathers.is_empty() {
-        true => WEATHERS.to_vec(),
-        false => arguments.weathers.iter().map(String::as_str).collect(),
-    };
-    let mut rows = vec![];
-    for name in names {
-        let mut weather = super::ground::weather(name)?;
-        weather.sun_azimuth_angle = 215.0;
-        rows.push(of_town(&ground, &weather));
-    }
+    let weathers = super::ground::weathers(&arguments.weathers, &WEATHERS)?;
+    let mut rows: Vec<_> = weathers.iter().map(|weather| of_town(&ground, weather)).collect();
     for folder in &arguments.pictures {
         rows.push(of_folder(folder).map_err(|refusal| vec![refusal])?);
     }

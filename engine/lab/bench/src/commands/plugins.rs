@@ -5,6 +5,7 @@ use cosfly_domain::PlanOutcome;
 use cosfly_frames::{DVec3, Seed};
 use cosfly_geometry::BoxBvh;
 use cosfly_lab::clock::thread_cpu_s;
+use cosfly_lab::median::median;
 use cosfly_planner::{CostTerm, MucoConfig, TermContext, WeightedTerm, plan_with_terms};
 use cosfly_plugin_host::{Host, Kind, NoTown, Plugin, PluginError, PluginLimits, PluginTerm, laws};
 use cosfly_scenes::{SceneKind, SeededScene};
@@ -77,11 +78,6 @@ pub fn plugins() -> Outcome {
     let start = start_ms().map_err(one)?;
     let _ = writeln!(text, "start from the compile cache              {start:.2} ms");
     print(&text)
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }
 
 /// Microseconds per call, native and plugin, and whether the costs have the same bits.

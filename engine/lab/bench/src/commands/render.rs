@@ -3,7 +3,7 @@
 use super::outcome::{Outcome, Refusals, print_report};
 use clap::Args;
 use cosfly_diagnose::{Diagnostic, Fault};
-use cosfly_domain::{Camera, Weather};
+use cosfly_domain::Camera;
 use cosfly_lab::render::views::Ground;
 use cosfly_lab::render::{RenderOptions, measure};
 use cosfly_render::RenderConfig;
@@ -62,7 +62,7 @@ pub fn render(arguments: &RenderArguments) -> Outcome {
         .map_err(|error| vec![Diagnostic::io("make a scratch folder here", &error)])?;
     let report = measure(&RenderOptions {
         grounds: grounds(arguments, camera)?,
-        weathers: weathers(arguments)?,
+        weathers: super::ground::weathers(&arguments.weathers, &WEATHERS)?,
         rounds: arguments.rounds,
         encoding: EncodingConfig::default(),
         threads: std::thread::available_parallelism().map_or(1, usize::from),
@@ -79,19 +79,6 @@ fn camera(arguments: &RenderArguments) -> Result<Camera, Refusals> {
         |message: String, hint: String| vec![Diagnostic::new("bench-parameters", Fault::Recipe, message).hint(hint)];
     config.validate().map_err(|problem| refused(problem.message, problem.hint))?;
     Ok(config.camera())
-}
-
-fn weathers(arguments: &RenderArguments) -> Result<Vec<Weather>, Refusals> {
-    let names: Vec<&str> = match arguments.weathers.is_empty() {
-        true => WEATHERS.to_vec(),
-        false => arguments.weathers.iter().map(String::as_str).collect(),
-    };
-    let weather = |name: &&str| {
-        let mut weather = super::ground::weather(name)?;
-        weather.sun_azimuth_angle = 215.0;
-        Ok(weather)
-    };
-    names.iter().map(weather).collect()
 }
 
 fn grounds(arguments: &RenderArguments, camera: Camera) -> Result<Vec<Ground>, Refusals> {

@@ -51,15 +51,9 @@ pub fn steady(arguments: &SteadyArguments) -> Outcome {
     let mut ground = super::ground::of_town(arguments.town.as_deref(), camera, arguments.views)?;
     ground.scene = ground.scene.in_season(arguments.season);
     let starts: Vec<Pose> = ground.views.iter().map(|view| view.pose).collect();
-    let names: Vec<&str> = match arguments.weathers.is_empty() {
-        true => WEATHERS.to_vec(),
-        false => arguments.weathers.iter().map(String::as_str).collect(),
-    };
+    let clip = (arguments.frames, arguments.step_m);
     let mut rows = vec![];
-    for name in names {
-        let mut weather = super::ground::weather(name)?;
-        weather.sun_azimuth_angle = 215.0;
-        let clip = (arguments.frames, arguments.step_m);
+    for weather in super::ground::weathers(&arguments.weathers, &WEATHERS)? {
         rows.extend(of_clips(&ground.name, &ground.scene, (camera, PictureLook::Full), &weather, &starts, clip));
     }
     let report = SteadyReport { rows };

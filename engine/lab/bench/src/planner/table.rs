@@ -3,6 +3,7 @@
 use super::contender::Contender;
 use super::figures::{Figures, Flight};
 use super::outcomes::{PathOutcome, PlannerOptions};
+use crate::median::median;
 use serde::Serialize;
 use std::fmt;
 
@@ -126,16 +127,6 @@ fn row(planner: &str, flights: &[&Flight], outcomes: &[&PathOutcome]) -> Row {
     }
 }
 
-/// Median; the mean of the two middle values of an even number; 0 for an empty list.
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    match values.len() {
-        0 => 0.0,
-        n if n % 2 == 1 => values[n / 2],
-        n => 0.5 * (values[n / 2 - 1] + values[n / 2]),
-    }
-}
-
 /// Column headings and widths, after scene and planner.
 const HEADINGS: [(&str, usize); 18] = [
     ("vis", 5),
@@ -232,11 +223,6 @@ mod tests {
     use cosfly_planner::MucoConfig;
     use cosfly_planner::baselines::Baseline;
     use cosfly_scenes::SceneKind;
-
-    #[test]
-    fn medians_are_middle_values() {
-        assert_eq!([median(vec![]), median(vec![3.0, 1.0, 2.0]), median(vec![4.0, 1.0])], [0.0, 2.0, 2.5]);
-    }
 
     #[test]
     fn rows_are_one_per_scene_and_planner_and_judged_alike() {

@@ -1,11 +1,11 @@
-//! Whoever moves in a picture: people as frustums, vehicles and other figures as triangles.
+//! Whoever moves in a picture: people as frustums, vehicles as triangles.
 
 use super::Painter;
 use crate::canvas::WIDE;
 use crate::eye::{Eye, NEAR_M};
 use crate::faces::{BODY, DrawnFace, SKY};
 use crate::figures::{Around, SeenPart, Stance};
-use crate::view::{BatchView, Figure};
+use crate::view::BatchView;
 use cosfly_domain::{SemanticLabel, TARGET_INSTANCE};
 use cosfly_figures::{Region, Walker, figure};
 use cosfly_frames::DVec3;
@@ -19,21 +19,6 @@ impl Painter {
         }
         for (who, other) in (1..).zip(view.others).filter(|(_, other)| other.walker.has_body()) {
             self.draw_walker(eye, &other.walker, (who, other.instance));
-        }
-    }
-
-    pub(super) fn draw_figures(&mut self, eye: &Eye, figures: &[Figure<'_>]) {
-        for figure in figures {
-            let corners = || figure.triangles_in_world.iter().flatten().copied();
-            let low = corners().fold(DVec3::INFINITY, DVec3::min);
-            let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
-            if !self.may_show(&Around::of_box(eye, low, high)) {
-                continue;
-            }
-            for corners in figure.triangles_in_world {
-                let face = DrawnFace { instance: figure.instance, label: figure.label, ..SKY };
-                self.draw_triangle(eye, corners, face);
-            }
         }
     }
 
