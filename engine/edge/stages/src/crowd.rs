@@ -4,7 +4,7 @@ use crate::nearby;
 use cosfly_diagnose::Result;
 use cosfly_domain::{BodyId, BodyView, Traffic, largest_object_instance};
 use cosfly_experts::artifacts;
-use cosfly_figures::Bystander;
+use cosfly_figures::FigureInPicture;
 use cosfly_film::nearby::{NearbyBodies, NearbyWalk};
 use cosfly_film::{BodyOnTrack, Shooting};
 use cosfly_flight::World;
@@ -70,9 +70,9 @@ impl Crowd {
     }
 
     /// Adds all people at a time, seconds from the flight's first frame.
-    pub fn at(&self, time_s: f64, list: &mut Vec<Bystander>) {
+    pub fn at(&self, time_s: f64, list: &mut Vec<FigureInPicture>) {
         let bystander = |(other, person): &(OtherBody, BodyOnTrack)| {
-            Some(Bystander { walker: person.walker(time_s)?, instance: other.instance })
+            Some(FigureInPicture { figure: person.figure(time_s)?, instance: other.instance })
         };
         list.extend(self.members.iter().filter_map(bystander));
     }

@@ -14,7 +14,7 @@ use cosfly_experts::memo::Memo;
 use cosfly_experts::render_files::ScanTally;
 use cosfly_experts::world::{check_same_town, link_town, world};
 use cosfly_experts::{artifacts, pictures, render_files};
-use cosfly_figures::{Bystander, outfit_of};
+use cosfly_figures::{FigureInPicture, outfit_of};
 use cosfly_film::Shooting;
 use cosfly_film::body_rays::{self, BodyRays};
 use cosfly_film::in_space::Taken;
@@ -296,7 +296,7 @@ impl RenderStage {
         };
         let frame_at = |frame: usize| {
             let time_s = film.time_s(frame);
-            let others = move |offset_s: f64, list: &mut Vec<Bystander>| crowd.at(time_s + offset_s, list);
+            let others = move |offset_s: f64, list: &mut Vec<FigureInPicture>| crowd.at(time_s + offset_s, list);
             (move |offset_s: f64| film.moment(frame, offset_s), others)
         };
         let (mut seen, mut rays, mut about) = (SeenPeople::default(), BodyRays::default(), vec![]);
@@ -324,7 +324,7 @@ impl RenderStage {
                 crowd.at(film.time_s(frame), &mut about);
                 if config.bodies_3d {
                     let (images, camera, lens) = (rendered.images, shooting.camera, config.lens);
-                    let all = target.map(|walker| Bystander { walker, instance: TARGET_INSTANCE });
+                    let all = target.map(|figure| FigureInPicture { figure, instance: TARGET_INSTANCE });
                     let taken = Taken { frame: number, images, camera, lens, pose };
                     seen.bodies_3d.extend(taken.bodies(all.into_iter().chain(about.iter().copied())));
                 }

@@ -10,7 +10,7 @@ use cosfly_domain::TARGET_INSTANCE;
 use cosfly_experts::artifacts;
 use cosfly_experts::memo::Memo;
 use cosfly_experts::world::{check_same_town, world};
-use cosfly_figures::{Bystander, clothes_seed_of_target};
+use cosfly_figures::{FigureInPicture, clothes_seed_of_target};
 use cosfly_film::looks::walk_seed;
 use cosfly_frames::Seed;
 use cosfly_render::{Scene, SceneTriangle};
@@ -109,12 +109,12 @@ impl Stage for ScanStage {
             record.followed.as_ref().map_or_else(|| walk_seed(&record.trajectory.track), |it| Ok(it.plan.looks))?;
         let clothes_seed = clothes_seed_of_target(&looks, 0.0);
         let body = |time_s: f64, (instance, person): &(u32, cosfly_film::BodyOnTrack)| {
-            let mut walker = person.walker(time_s)?;
+            let mut figure = person.figure(time_s)?;
             if *instance == TARGET_INSTANCE {
-                walker.clothes_seed = clothes_seed;
+                figure.clothes_seed = clothes_seed;
             }
-            walker.body = walker.body.in_rain(rain, &walker.clothes_seed);
-            Some(Bystander { walker, instance: *instance })
+            figure.body = figure.body.in_rain(rain, &figure.clothes_seed);
+            Some(FigureInPicture { figure, instance: *instance })
         };
         let flight = ScannedFlight {
             scene: &scene,

@@ -5,7 +5,7 @@ use crate::clock::timed;
 use crate::render::views::Ground;
 use cosfly_batch::{BatchRenderer, BatchScene, BatchView, Outputs};
 use cosfly_domain::{Camera, FrameImages};
-use cosfly_figures::{Bystander, Walker};
+use cosfly_figures::{BodyFigure, FigureInPicture};
 use cosfly_frames::{DVec3, TargetState};
 use cosfly_random::Seed;
 use cosfly_render::{FrameParts, FrameSetup, PictureLook, Renderer};
@@ -103,7 +103,7 @@ pub fn measure(options: &SmallOptions) -> SmallReport {
     let ground = &options.ground;
     let (scene, prepare_s) = timed(|| BatchScene::without_colours(&ground.town, &GroundIndex::new(&ground.town)));
     let index = GroundIndex::new(&ground.town);
-    let crowds: Vec<Vec<Bystander>> =
+    let crowds: Vec<Vec<FigureInPicture>> =
         ground.views.iter().map(|place| crowd(place.target.state.feet_in_world, options.people, &index)).collect();
     let mut rows: Vec<SmallRow> =
         options.sizes.iter().map(|size| row(options, &scene, &crowds, (*size, Content::Geometry))).collect();
@@ -125,13 +125,13 @@ pub fn measure(options: &SmallOptions) -> SmallReport {
     }
 }
 
-fn crowd(around: DVec3, count: u32, index: &GroundIndex) -> Vec<Bystander> {
+fn crowd(around: DVec3, count: u32, index: &GroundIndex) -> Vec<FigureInPicture> {
     let mut random = Seed([6; 32]).stream("crowd");
     let person = |number: u32| {
         let away = DVec3::new(random.uniform(-AROUND_M, AROUND_M), random.uniform(-AROUND_M, AROUND_M), 0.0);
         let mut feet_in_world = around + away;
         feet_in_world.z = index.ground_height_m(feet_in_world.x, feet_in_world.y).unwrap_or(around.z);
-        let walker = Walker {
+        let figure = BodyFigure {
             state: TargetState {
                 feet_in_world,
                 heading_rad: random.uniform(-3.1, 3.1),
@@ -143,7 +143,7 @@ fn crowd(around: DVec3, count: u32, index: &GroundIndex) -> Vec<Bystander> {
             gait_phase_rad: random.uniform(-3.1, 3.1),
             body: cosfly_figures::BodyShape::default(),
         };
-        Bystander { walker, instance: 1_000_000 + number }
+        FigureInPicture { figure, instance: 1_000_000 + number }
     };
     (0..count).map(person).collect()
 }
@@ -151,7 +151,7 @@ fn crowd(around: DVec3, count: u32, index: &GroundIndex) -> Vec<Bystander> {
 fn row(
     options: &SmallOptions,
     scene: &BatchScene,
-    crowds: &[Vec<Bystander>],
+    crowds: &[Vec<FigureInPicture>],
     (size, content): (u32, Content),
 ) -> SmallRow {
     let ground = &options.ground;

@@ -3,7 +3,7 @@
 use crate::painter::Painter;
 use crate::patch::Patch;
 use cosfly_domain::{ObstacleKind, OrientedBox, Town, Weather};
-use cosfly_figures::{Bystander, Clothes, FigureTriangle, Livery, figure};
+use cosfly_figures::{Clothes, FigureInPicture, FigureTriangle, Livery, add_figure};
 use cosfly_frames::{DVec3, Seed, real};
 use cosfly_geometry::BoxBvh;
 use cosfly_materials::light::Light;
@@ -102,10 +102,10 @@ fn opaque(faces: &[SceneFace], cars: &BTreeSet<u32>) -> BoxBvh {
 }
 
 /// The patches of a parked car: one a triangle, of one colour.
-fn of_car(car: &Bystander, to_sun: DVec3, texel_m: f64) -> Vec<Patch> {
+fn of_car(car: &FigureInPicture, to_sun: DVec3, texel_m: f64) -> Vec<Patch> {
     let mut triangles = vec![];
-    figure(&car.walker, &Clothes::draw(&car.walker.clothes_seed), 0, &mut triangles);
-    let colours = Livery::draw(&car.walker.body, &car.walker.clothes_seed).colours(&car.walker.body);
+    add_figure(&car.figure, &Clothes::draw(&car.figure.clothes_seed), 0, &mut triangles);
+    let colours = Livery::draw(&car.figure.body, &car.figure.clothes_seed).colours(&car.figure.body);
     let patch = |triangle: &FigureTriangle| {
         let normal = triangle.normal_in_world;
         let mut patch = Patch::new(triangle.corners_in_world.to_vec(), normal, texel_m)?;

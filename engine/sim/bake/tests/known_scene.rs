@@ -5,7 +5,7 @@ mod small_town;
 
 use cosfly_bake::{BakeProblem, BakedTown, bake};
 use cosfly_domain::{Camera, FrameImages, Optics, SemanticLabel, Town, Weather};
-use cosfly_figures::{BodyShape, Walker};
+use cosfly_figures::{BodyFigure, BodyShape};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_maps::{MapConfig, read_town};
@@ -45,7 +45,7 @@ fn views() -> [Pose; 3] {
 
 /// A frame, and the share of the target that its pixels show.
 fn draw(scene: &Scene, pose: Pose) -> (FrameImages, f64) {
-    let target = Walker {
+    let target = BodyFigure {
         state: TargetState { feet_in_world: FEET, heading_rad: 0.1, speed_mps: 1.4 },
         height_m: 1.75,
         radius_m: 0.3,

@@ -2,7 +2,7 @@
 
 use crate::canvas::{Part, Parts, WIDE};
 use crate::eye::{Eye, NEAR_M};
-use cosfly_figures::{FigurePart, SIDES, Walker};
+use cosfly_figures::{BodyFigure, FigurePart, SIDES};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, real, simd_kernel};
 
@@ -66,7 +66,7 @@ pub struct SeenPart {
     pub nearest_m: f32,
 }
 
-/// A walker's axes in body axes of the camera, as long as the body is high.
+/// A person's axes in body axes of the camera, as long as the body is high.
 pub struct Stance {
     feet: DVec3,
     axes: [DVec3; 3],
@@ -93,19 +93,19 @@ const SIN: [f32; WIDE] = {
 };
 
 impl Stance {
-    /// The stance of a walker whose lowest ring is `lowest` body heights above the feet.
-    pub fn new(eye: &Eye, walker: &Walker, lowest: f64) -> Self {
-        let (sin, cos) = real::sin_cos(walker.state.heading_rad);
+    /// The stance of a person whose lowest ring is `lowest` body heights above the feet.
+    pub fn new(eye: &Eye, figure: &BodyFigure, lowest: f64) -> Self {
+        let (sin, cos) = real::sin_cos(figure.state.heading_rad);
         let axes = [DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0), DVec3::Z];
-        let sunk = walker.state.feet_in_world - DVec3::Z * (lowest * walker.height_m);
+        let sunk = figure.state.feet_in_world - DVec3::Z * (lowest * figure.height_m);
         Self {
             feet: eye.see(sunk),
-            axes: axes.map(|axis| eye.body_from_world * axis * walker.height_m),
-            height_m: walker.height_m,
+            axes: axes.map(|axis| eye.body_from_world * axis * figure.height_m),
+            height_m: figure.height_m,
             focal_px: eye.focal_px as f32,
             size_px: eye.half_px.map(|half| 2.0 * half as f32),
             feet_in_world: sunk,
-            axes_in_world: axes.map(|axis| axis * walker.height_m),
+            axes_in_world: axes.map(|axis| axis * figure.height_m),
         }
     }
 

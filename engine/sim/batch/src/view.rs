@@ -2,7 +2,7 @@
 
 use crate::scene::BatchScene;
 use cosfly_domain::Weather;
-use cosfly_figures::{Bystander, Walker};
+use cosfly_figures::{BodyFigure, FigureInPicture};
 use cosfly_frames::Pose;
 use cosfly_render::PictureLook;
 
@@ -16,10 +16,10 @@ pub struct BatchView<'a> {
     /// Horizontal field of view, radians; pixels are square, the optical centre is the picture's centre.
     pub horizontal_fov_rad: f64,
     /// The followed target, if there is one; its instance id is [`cosfly_domain::TARGET_INSTANCE`].
-    pub target: Option<Walker>,
+    pub target: Option<BodyFigure>,
     /// All other people and vehicles, drawn as the same figures as in large pictures; those less than a pixel high are left out, as
     /// there.
-    pub others: &'a [Bystander],
+    pub others: &'a [FigureInPicture],
     /// Weather of the colours; noon under a clear sky where there is none.
     pub weather: Option<&'a Weather>,
     /// Look of the colours.

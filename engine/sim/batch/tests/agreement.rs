@@ -6,7 +6,7 @@ mod towns;
 
 use cosfly_batch::{BatchRenderer, BatchScene, BatchView, Outputs};
 use cosfly_domain::{BodyKind, Camera, ObstacleKind, Town, Weather, object_instance};
-use cosfly_figures::{BodyShape, Walker};
+use cosfly_figures::{BodyFigure, BodyShape};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_render::{FrameParts, FrameSetup, PictureLook, Renderer, Scene};
@@ -26,15 +26,15 @@ fn with_vehicles(mut places: Vec<Place>) -> Vec<Place> {
         (BodyKind::Van, DVec3::new(5.4, 2.0, 2.3)),
     ];
     let mut next = kinds.iter().cycle();
-    let mut turn = |walker: &mut Walker| {
+    let mut turn = |figure: &mut BodyFigure| {
         let Some((kind, size_m)) = next.next() else { return };
-        walker.body = BodyShape::of(*kind, *size_m);
-        (walker.height_m, walker.radius_m) = (size_m.z, 0.5 * size_m.truncate().length());
+        figure.body = BodyShape::of(*kind, *size_m);
+        (figure.height_m, figure.radius_m) = (size_m.z, 0.5 * size_m.truncate().length());
     };
     if let Some(first) = places.first_mut() {
         turn(&mut first.target);
     }
-    places.iter_mut().for_each(|place| place.others.iter_mut().step_by(8).for_each(|other| turn(&mut other.walker)));
+    places.iter_mut().for_each(|place| place.others.iter_mut().step_by(8).for_each(|other| turn(&mut other.figure)));
     places
 }
 

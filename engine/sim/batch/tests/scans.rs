@@ -3,7 +3,7 @@
 use cosfly_batch::{BatchRenderer, BatchScene, BatchView, OnRequest, Outputs};
 use cosfly_domain::channels::SeenPoint;
 use cosfly_domain::{Camera, TARGET_INSTANCE};
-use cosfly_figures::{BodyShape, Walker};
+use cosfly_figures::{BodyFigure, BodyShape};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_maps::{MapConfig, read_town};
 use cosfly_models::mesh::{MeshConfig, TexturedMesh};
@@ -23,7 +23,7 @@ fn small_pictures_of_a_mesh_are_those_of_the_large_renderer() {
     let mesh = TexturedMesh::read(TexturedMesh::EXAMPLE, &[], &place).expect("a mesh");
     let scan = SceneScan { mesh: Some(Arc::new(SceneMesh::new(mesh, &config, &town))), ..SceneScan::default() };
     let scene = BatchScene::without_colours(&town, &GroundIndex::new(&town)).with_scan(&town, SEED, scan.clone());
-    let target = Walker {
+    let target = BodyFigure {
         state: TargetState { feet_in_world: DVec3::new(-4.0, 4.0, 0.12), heading_rad: 0.1, speed_mps: 1.4 },
         height_m: 1.75,
         radius_m: 0.3,

@@ -9,7 +9,7 @@ use crate::others::BodyAtTime;
 use cosfly_batch::{BatchRenderer, BatchView};
 use cosfly_domain::channels::rgb;
 use cosfly_domain::{BodyId, BodyKind, Weather};
-use cosfly_figures::{BodyShape, Bystander, Walker, gait_phase_rad};
+use cosfly_figures::{BodyFigure, BodyShape, FigureInPicture, gait_phase_rad};
 use cosfly_frames::{DVec3, TargetState};
 use rayon::prelude::*;
 
@@ -22,7 +22,7 @@ pub struct Pictures {
     renderer: BatchRenderer,
     threads: usize,
     /// Everybody else in each view.
-    bystanders: Vec<Vec<Bystander>>,
+    bystanders: Vec<Vec<FigureInPicture>>,
 }
 
 impl Pictures {
@@ -51,7 +51,7 @@ impl Pictures {
     /// # Panics
     /// Where the album has no room for all pictures.
     pub fn draw_team(&mut self, environments: &[&Environment], album: &mut PictureBatch) {
-        let drones: Vec<Option<Walker>> = environments.iter().map(|environment| drone(environment)).collect();
+        let drones: Vec<Option<BodyFigure>> = environments.iter().map(|environment| drone(environment)).collect();
         self.draw_beside(environments, &drones, album, 0);
     }
 
@@ -59,19 +59,19 @@ impl Pictures {
     fn draw_beside(
         &mut self,
         environments: &[&Environment],
-        drones: &[Option<Walker>],
+        drones: &[Option<BodyFigure>],
         album: &mut PictureBatch,
         first: usize,
     ) {
         let Self { format, renderer, threads, bystanders } = self;
         bystanders.resize_with(environments.len().max(bystanders.len()), Vec::new);
-        let fill = |(own, (environment, seen)): (usize, (&&Environment, &mut Vec<Bystander>))| {
+        let fill = |(own, (environment, seen)): (usize, (&&Environment, &mut Vec<FigureInPicture>))| {
             seen.clear();
             seen.extend(self::bystanders(environment, rain(format, environment)));
             let others = drones.iter().enumerate().filter(|(number, _)| *number != own);
-            seen.extend(others.filter_map(|(number, walker)| {
+            seen.extend(others.filter_map(|(number, figure)| {
                 let instance = environment.episode().place.instance(BodyId::of_drone(number as u32));
-                walker.map(|walker| Bystander { walker, instance })
+                figure.map(|figure| FigureInPicture { figure, instance })
             }));
         };
         match *threads {
@@ -111,11 +111,11 @@ fn rain(format: &PictureFormat, environment: &Environment) -> f64 {
 }
 
 /// The target of an environment as it is drawn now, in a rain.
-pub fn target(environment: &Environment, rain: f64) -> Walker {
+pub fn target(environment: &Environment, rain: f64) -> BodyFigure {
     let episode = environment.episode();
     let (track, state) = (&episode.target, episode.target_at(environment.observation().time_s));
     let body = episode.followed.as_ref().map_or(BodyShape::default(), |plan| BodyShape::of(plan.kind, plan.size_m));
-    Walker {
+    BodyFigure {
         state,
         height_m: track.height_m,
         radius_m: track.radius_m,
@@ -129,14 +129,14 @@ pub fn target(environment: &Environment, rain: f64) -> Walker {
 const DRONE_M: DVec3 = DVec3::new(0.6, 0.6, 0.2);
 
 /// The drone of an environment as others see it; none where its episode is over.
-fn drone(environment: &Environment) -> Option<Walker> {
+fn drone(environment: &Environment) -> Option<BodyFigure> {
     let observation = environment.observation();
     let state = TargetState {
         feet_in_world: observation.motion.position_in_world - DVec3::Z * (0.5 * DRONE_M.z),
         heading_rad: observation.yaw_rad,
         speed_mps: observation.motion.velocity_in_world.length(),
     };
-    environment.score().end.is_none().then_some(Walker {
+    environment.score().end.is_none().then_some(BodyFigure {
         state,
         height_m: DRONE_M.z,
         radius_m: 0.5 * DRONE_M.x,
@@ -147,20 +147,20 @@ fn drone(environment: &Environment) -> Option<Walker> {
 }
 
 /// Everybody else who is there now, in a rain.
-pub fn bystanders(environment: &Environment, rain: f64) -> impl Iterator<Item = Bystander> {
+pub fn bystanders(environment: &Environment, rain: f64) -> impl Iterator<Item = FigureInPicture> {
     bystanders_at(environment.episode(), environment.observation().time_s, rain)
 }
 
 /// Everybody else who is there at a time, in a rain. The bodies are the only source of their world beside the drones of a team.
-pub fn bystanders_at(episode: &Episode, time_s: f64, rain: f64) -> impl Iterator<Item = Bystander> {
-    episode.others.at(time_s).map(move |present| Bystander {
-        walker: walker(&present, rain),
+pub fn bystanders_at(episode: &Episode, time_s: f64, rain: f64) -> impl Iterator<Item = FigureInPicture> {
+    episode.others.at(time_s).map(move |present| FigureInPicture {
+        figure: figure(&present, rain),
         instance: episode.place.instance(BodyId::of(0, present.body.number as usize)),
     })
 }
 
 /// Somebody who is there as they are drawn in a rain.
-fn walker(BodyAtTime { body, state, covered_m }: &BodyAtTime<'_>, rain: f64) -> Walker {
-    let dry = Walker::of(&body.plan, *state, *covered_m);
-    Walker { body: dry.body.in_rain(rain, &body.plan.looks), ..dry }
+fn figure(BodyAtTime { body, state, covered_m }: &BodyAtTime<'_>, rain: f64) -> BodyFigure {
+    let dry = BodyFigure::of(&body.plan, *state, *covered_m);
+    BodyFigure { body: dry.body.in_rain(rain, &body.plan.looks), ..dry }
 }

@@ -1,7 +1,7 @@
 //! Upright boxes around figures, for who is in view and who may hide whom.
 
+use crate::body_figure::BodyFigure;
 use crate::body_shape::BodyShape;
-use crate::walker::Walker;
 use cosfly_frames::DVec3;
 
 /// Limbs swing this far from the upright axis, in body heights.
@@ -11,7 +11,7 @@ const UMBRELLA_PER_HEIGHT: f64 = 1.25;
 /// Vehicles stay within their boxes and this margin, metres.
 const VEHICLE_MARGIN_M: f64 = 0.02;
 
-impl Walker {
+impl BodyFigure {
     /// Lowest and highest corner of an upright box around the figure, in the world frame, metres.
     pub fn bounds_in_world(&self) -> (DVec3, DVec3) {
         let feet = self.state.feet_in_world;

@@ -1,6 +1,6 @@
 //! Joints of a walking person. Places before the person's heading: forward, right, up in body heights.
 
-use crate::Walker;
+use crate::BodyFigure;
 use crate::body_shape::Posture;
 use crate::build::{ArmBearing, Build, head_size};
 use cosfly_frames::real;
@@ -21,7 +21,7 @@ const RUNNING_MPS: [f64; 2] = [1.3, 1.8];
 /// Forward and up.
 pub(crate) type Side = (f64, f64);
 
-/// Limbs of a walker, left before right.
+/// Limbs of a person, left before right.
 pub(crate) struct Limbs {
     /// Widths relative to the usual.
     pub shoulders: f64,
@@ -57,19 +57,19 @@ pub(crate) struct Bearing {
 }
 
 impl Limbs {
-    pub fn of(walker: &Walker, build: &Build) -> Self {
-        let stout = (walker.radius_m / (0.15 * walker.height_m)).clamp(0.8, 1.25);
+    pub fn of(figure: &BodyFigure, build: &Build) -> Self {
+        let stout = (figure.radius_m / (0.15 * figure.height_m)).clamp(0.8, 1.25);
         let (shoulders, hips) = (build.shoulders * stout, build.hips * stout);
-        let swing = 0.5 * (walker.state.speed_mps / 1.3).clamp(0.0, 1.2);
-        let (left, right) = (walker.gait_phase_rad, walker.gait_phase_rad + real::PI);
-        let posture = walker.body.posture();
-        let runs = if posture == Posture::Running { running_share(walker.state.speed_mps) } else { 0.0 };
+        let swing = 0.5 * (figure.state.speed_mps / 1.3).clamp(0.0, 1.2);
+        let (left, right) = (figure.gait_phase_rad, figure.gait_phase_rad + real::PI);
+        let posture = figure.body.posture();
+        let runs = if posture == Posture::Running { running_share(figure.state.speed_mps) } else { 0.0 };
         let (steps, knees, stoop) = match posture {
             Posture::Stooped => (STOOPED.0, 1.0, STOOPED.1),
             _ => (mix(1.0, RUNNING.0, runs), mix(1.0, RUNNING.1, runs), mix(0.0, RUNNING.2, runs)),
         };
         let (stride, arm_swing) = (steps * swing * build.stride, 0.8 * swing * build.arm_swing + 0.08);
-        let right_arm = if walker.body.has_umbrella() { ArmBearing::Holds } else { build.right_arm };
+        let right_arm = if figure.body.has_umbrella() { ArmBearing::Holds } else { build.right_arm };
         let arms = match posture {
             Posture::Upright | Posture::Running => (ArmBearing::Swings, right_arm),
             Posture::Stooped => (ArmBearing::Leads, right_arm),
@@ -87,7 +87,7 @@ impl Limbs {
                 ArmJoints::of((-1.0, shoulders), right, arm_swing, (arms.0, runs)),
                 ArmJoints::of((1.0, shoulders), left, arm_swing, (arms.1, runs)),
             ],
-            bearing: Bearing { lean: build.lean + stoop, head: head_size(walker.height_m) },
+            bearing: Bearing { lean: build.lean + stoop, head: head_size(figure.height_m) },
         }
     }
 }
@@ -159,7 +159,7 @@ mod tests {
 
     /// Lean, and height of the left hand and knee, of somebody in the middle of a step.
     fn bearing(posture: Posture, speed_mps: f64) -> [f64; 3] {
-        let walker = Walker {
+        let figure = BodyFigure {
             state: TargetState { feet_in_world: DVec3::ZERO, heading_rad: 0.0, speed_mps },
             height_m: 1.75,
             radius_m: 0.25,
@@ -167,7 +167,7 @@ mod tests {
             gait_phase_rad: 0.6,
             body: BodyShape::Person { umbrella: false, posture },
         };
-        let limbs = Limbs::of(&walker, &Build::draw(&walker.clothes_seed));
+        let limbs = Limbs::of(&figure, &Build::draw(&figure.clothes_seed));
         [limbs.bearing.lean, limbs.arms[0].hand.1, limbs.legs[0].knee.1]
     }
 

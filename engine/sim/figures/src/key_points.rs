@@ -1,22 +1,22 @@
 //! Key points of a person, which follow from the joints.
 
 use crate::joints::{ArmJoints, LegJoints, Limbs, Side};
-use crate::{Clothes, FigureParts, Walker};
+use crate::{BodyFigure, Clothes, FigureParts};
 use cosfly_frames::{DVec3, real};
 
 /// COCO's seventeen key points of a person on foot, world frame, in the order of [`cosfly_domain::KEY_POINTS`]; `None` for others.
 /// A person with a push-chair or a dog has them as well.
 /// They are the joints of the figure, within its limbs; eyes, ears and nose are on the face.
-pub fn key_points(walker: &Walker) -> Option<[DVec3; 17]> {
-    let walker = &walker.on_foot().filter(Walker::has_body)?;
-    let clothes = Clothes::draw(&walker.clothes_seed);
-    let Limbs { legs: [left, right], arms: [left_arm, right_arm], bearing, .. } = Limbs::of(walker, &clothes.build);
-    let sink = FigureParts::of(walker, &clothes).lowest();
-    let (sin, cos) = real::sin_cos(walker.state.heading_rad);
+pub fn key_points(figure: &BodyFigure) -> Option<[DVec3; 17]> {
+    let figure = &figure.on_foot().filter(BodyFigure::has_body)?;
+    let clothes = Clothes::draw(&figure.clothes_seed);
+    let Limbs { legs: [left, right], arms: [left_arm, right_arm], bearing, .. } = Limbs::of(figure, &clothes.build);
+    let sink = FigureParts::of(figure, &clothes).lowest();
+    let (sin, cos) = real::sin_cos(figure.state.heading_rad);
     let (ahead, aside) = (DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0));
     let at = |side: Side, right: f64| {
         let (forward, up) = bearing.bear(side);
-        walker.state.feet_in_world + walker.height_m * (ahead * forward + aside * right + DVec3::Z * (up - sink))
+        figure.state.feet_in_world + figure.height_m * (ahead * forward + aside * right + DVec3::Z * (up - sink))
     };
     // The head's rings grow around their middle with its size.
     let face =
@@ -51,7 +51,7 @@ pub fn key_points(walker: &Walker) -> Option<[DVec3; 17]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{BodyShape, FigureTriangle, figure};
+    use crate::{BodyShape, FigureTriangle, add_figure};
     use cosfly_frames::{Seed, TargetState};
 
     /// Number of parts that a point lies in: a ray from it leaves so many more often than it enters.
@@ -73,7 +73,7 @@ mod tests {
     #[test]
     fn key_points_lie_within_the_figure_on_their_own_sides() {
         for number in 0..12u8 {
-            let walker = Walker {
+            let figure = BodyFigure {
                 state: TargetState { feet_in_world: DVec3::new(5.0, -3.0, 0.5), heading_rad: 0.0, speed_mps: 1.4 },
                 height_m: if number % 3 == 0 { 1.1 } else { 1.75 },
                 radius_m: 0.3,
@@ -81,9 +81,9 @@ mod tests {
                 gait_phase_rad: f64::from(number) * 0.5,
                 body: BodyShape::default(),
             };
-            let points = key_points(&walker).expect("a person");
+            let points = key_points(&figure).expect("a person");
             let mut triangles = vec![];
-            figure(&walker, &Clothes::draw(&walker.clothes_seed), 0, &mut triangles);
+            add_figure(&figure, &Clothes::draw(&figure.clothes_seed), 0, &mut triangles);
             for (point, name) in points.iter().zip(cosfly_domain::KEY_POINTS) {
                 assert!(parts_around(&triangles, *point) > 0, "{name} of {number} is outside");
                 let right = (point.y + 3.0) * if name.starts_with("left") { -1.0 } else { 1.0 };

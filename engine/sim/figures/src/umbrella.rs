@@ -45,7 +45,7 @@ pub fn parts() -> [FigurePart; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{BodyShape, Posture, Walker, walker_triangles};
+    use crate::{BodyFigure, BodyShape, Posture, figure_triangles};
     use cosfly_domain::BodyKind;
     use cosfly_frames::{DVec3, TargetState};
 
@@ -75,13 +75,13 @@ mod tests {
             let state = TargetState { feet_in_world: DVec3::ZERO, heading_rad: 0.1 * number as f64, speed_mps: 1.2 };
             let (height_m, clothes_seed) = (1.0 + 0.005 * number as f64, looks(number));
             let body = BodyShape::default();
-            let dry = Walker { state, height_m, radius_m: 0.3, clothes_seed, gait_phase_rad: 0.3, body };
-            let wet = Walker { body: BodyShape::Person { umbrella: true, posture: Posture::Upright }, ..dry };
+            let dry = BodyFigure { state, height_m, radius_m: 0.3, clothes_seed, gait_phase_rad: 0.3, body };
+            let wet = BodyFigure { body: BodyShape::Person { umbrella: true, posture: Posture::Upright }, ..dry };
             let (low, high) = wet.bounds_in_world();
-            let corners: Vec<DVec3> = walker_triangles(&wet).into_iter().flatten().collect();
+            let corners: Vec<DVec3> = figure_triangles(&wet).into_iter().flatten().collect();
             assert!(corners.iter().all(|corner| corner.cmpge(low).all() && corner.cmple(high).all()), "{number}");
             let top =
-                |walker: &Walker| walker_triangles(walker).into_iter().flatten().map(|at| at.z).fold(0.0, f64::max);
+                |figure: &BodyFigure| figure_triangles(figure).into_iter().flatten().map(|at| at.z).fold(0.0, f64::max);
             assert!(top(&wet) > top(&dry) + 0.1 * height_m);
         }
     }

@@ -2,7 +2,7 @@
 //! people in double precision, without any code of the renderer, so that its pixels can be compared with it.
 
 use cosfly_domain::{Camera, Lens};
-use cosfly_figures::{Bystander, Walker, walker_triangles};
+use cosfly_figures::{BodyFigure, FigureInPicture, figure_triangles};
 use cosfly_frames::{DVec3, Pose};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 
@@ -32,23 +32,23 @@ impl BodyRays {
     pub fn visible_share(
         &mut self,
         boxes: &BoxBvh,
-        others: &[Bystander],
+        others: &[FigureInPicture],
         camera: &Camera,
         pose: &Pose,
-        target: &Walker,
+        target: &BodyFigure,
     ) -> Option<f64> {
         let in_image = |corner: DVec3| camera.project(pose, corner).map(|(u, v, depth_m)| [u, v, 1.0 / depth_m]);
         let seen = |[a, b, c]: [DVec3; 3]| Some([in_image(a)?, in_image(b)?, in_image(c)?]);
-        let triangles: Vec<[Corner; 3]> = walker_triangles(target).into_iter().filter_map(seen).collect();
+        let triangles: Vec<[Corner; 3]> = figure_triangles(target).into_iter().filter_map(seen).collect();
         let grid = Grid::around(&triangles, camera)?;
         self.nearness.clear();
         self.nearness.resize(grid.columns * grid.rows, 0.0);
         triangles.iter().for_each(|triangle| grid.meet(triangle, &mut self.nearness));
         self.nearness_of_others.clear();
         self.nearness_of_others.resize(grid.columns * grid.rows, 0.0);
-        let is_before = |other: &&Bystander| is_before(&other.walker, pose.position_in_world, target);
+        let is_before = |other: &&FigureInPicture| is_before(&other.figure, pose.position_in_world, target);
         for other in others.iter().filter(is_before) {
-            let triangles = walker_triangles(&other.walker).into_iter().filter_map(seen);
+            let triangles = figure_triangles(&other.figure).into_iter().filter_map(seen);
             triangles.for_each(|triangle| grid.meet(&triangle, &mut self.nearness_of_others));
         }
         self.points_in_world.clear();
@@ -67,7 +67,7 @@ impl BodyRays {
 }
 
 /// Camera and pose of rays to a target: those of the picture, of a wide lens those of an ideal camera that looks at it.
-pub fn aimed(lens: &Lens, camera: &Camera, pose: &Pose, target: &Walker) -> (Camera, Pose) {
+pub fn aimed(lens: &Lens, camera: &Camera, pose: &Pose, target: &BodyFigure) -> (Camera, Pose) {
     if !lens.is_wide(camera) {
         return (*camera, *pose);
     }
@@ -76,7 +76,7 @@ pub fn aimed(lens: &Lens, camera: &Camera, pose: &Pose, target: &Walker) -> (Cam
 }
 
 /// True where somebody may hide a part of the target from an eye.
-pub fn is_before(other: &Walker, eye_in_world: DVec3, target: &Walker) -> bool {
+pub fn is_before(other: &BodyFigure, eye_in_world: DVec3, target: &BodyFigure) -> bool {
     let to_target = middle(target) - eye_in_world;
     let to_other = middle(other) - eye_in_world;
     let along = to_other.dot(to_target) / to_target.length_squared().max(1e-9);
@@ -85,8 +85,8 @@ pub fn is_before(other: &Walker, eye_in_world: DVec3, target: &Walker) -> bool {
 }
 
 /// Middle of an upright body.
-fn middle(walker: &Walker) -> DVec3 {
-    walker.state.feet_in_world + DVec3::Z * (0.5 * walker.body.height_m(walker.height_m))
+fn middle(figure: &BodyFigure) -> DVec3 {
+    figure.state.feet_in_world + DVec3::Z * (0.5 * figure.body.height_m(figure.height_m))
 }
 
 /// Pixels of rays: the middles of square cells.
@@ -168,8 +168,8 @@ mod tests {
 
     const CAMERA: Camera = Camera { width: 640, height: 360, horizontal_fov_rad: 1.2 };
 
-    fn target() -> Walker {
-        Walker {
+    fn target() -> BodyFigure {
+        BodyFigure {
             state: TargetState { feet_in_world: DVec3::ZERO, heading_rad: 0.4, speed_mps: 1.3 },
             height_m: 1.8,
             radius_m: 0.3,
@@ -201,9 +201,9 @@ mod tests {
     fn somebody_before_the_body_hides_it_and_somebody_behind_does_not() {
         let pose = Pose::looking_at(DVec3::new(20.0, 0.0, 0.9), DVec3::new(0.0, 0.0, 0.9));
         let share = |x: f64, y: f64| {
-            let mut walker = target();
-            walker.state.feet_in_world = DVec3::new(x, y, 0.0);
-            let other = [Bystander { walker, instance: 9 }];
+            let mut figure = target();
+            figure.state.feet_in_world = DVec3::new(x, y, 0.0);
+            let other = [FigureInPicture { figure, instance: 9 }];
             BodyRays::default().visible_share(&BoxBvh::build(vec![]), &other, &CAMERA, &pose, &target()).unwrap()
         };
         assert!(
@@ -220,17 +220,17 @@ mod tests {
         let pose = Pose::looking_at(DVec3::new(20.0, 0.0, 0.9), DVec3::new(0.0, 0.0, 0.9));
         let size_m = DVec3::new(12.0, 2.5, 3.1);
         let bus = BodyShape::Vehicle { kind: cosfly_domain::BodyKind::Bus, size_m };
-        let share = |target: &Walker, x: f64, y: f64| {
-            let mut walker = Walker { body: bus, ..self::target() };
-            (walker.state.feet_in_world, walker.state.heading_rad) =
+        let share = |target: &BodyFigure, x: f64, y: f64| {
+            let mut figure = BodyFigure { body: bus, ..self::target() };
+            (figure.state.feet_in_world, figure.state.heading_rad) =
                 (DVec3::new(x, y, 0.0), 0.5 * cosfly_frames::real::PI);
-            let other = [Bystander { walker, instance: 9 }];
+            let other = [FigureInPicture { figure, instance: 9 }];
             BodyRays::default().visible_share(&BoxBvh::build(vec![]), &other, &CAMERA, &pose, target).unwrap()
         };
         // The end of the bus, 5 m from its middle, is before the person.
         let [before, behind, beside] = [(6.0, 5.0), (-6.0, 5.0), (6.0, 8.0)].map(|(x, y)| share(&target(), x, y));
         assert!(before < 0.05 && [behind, beside] == [1.0; 2], "{before} {behind} {beside}");
-        let followed = Walker { body: bus, ..target() };
+        let followed = BodyFigure { body: bus, ..target() };
         let half = share(&followed, 8.0, 6.0);
         assert!((0.2..0.8).contains(&half), "{half}");
     }

@@ -4,7 +4,7 @@ use crate::body_rays::BodyRays;
 use crate::shooting::Shooting;
 use crate::walks::BodyOnTrack;
 use cosfly_domain::{Around, Followed, Trajectory};
-use cosfly_figures::Bystander;
+use cosfly_figures::FigureInPicture;
 use cosfly_frames::Seed;
 use cosfly_geometry::BoxBvh;
 
@@ -22,10 +22,11 @@ pub fn hidden(flight: &Trajectory, boxes: &BoxBvh, around: &Around, followed: Op
     let mut rays = BodyRays::default();
     let mut is_hidden = |frame: usize| {
         let time_s = frame as f64 * track.dt_s;
-        let Some(walker) = target.walker(time_s) else { return false };
-        let about = others.iter().filter_map(|other| Some(Bystander { walker: other.walker(time_s)?, instance: 1 }));
-        let about: Vec<Bystander> = about.collect();
-        let seen = rays.visible_share(boxes, &about, &camera, &flight.poses_in_world[frame], &walker);
+        let Some(figure) = target.figure(time_s) else { return false };
+        let about =
+            others.iter().filter_map(|other| Some(FigureInPicture { figure: other.figure(time_s)?, instance: 1 }));
+        let about: Vec<FigureInPicture> = about.collect();
+        let seen = rays.visible_share(boxes, &about, &camera, &flight.poses_in_world[frame], &figure);
         seen.is_none_or(|share| share == 0.0)
     };
     (0..track.states.len()).map(|frame| flight.visibility[frame] <= MOST_SEEN && is_hidden(frame)).collect()

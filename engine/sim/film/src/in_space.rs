@@ -1,7 +1,7 @@
 //! Bodies in space: 3-D boxes of those whom a frame shows, and key points of people in its picture.
 
 use cosfly_domain::{BodyInSpace, Camera, FrameImages, KeyPoint, Lens, Shown};
-use cosfly_figures::{BodyShape, Bystander, Walker, key_points};
+use cosfly_figures::{BodyFigure, BodyShape, FigureInPicture, key_points};
 use cosfly_frames::{DVec3, Pose};
 use std::collections::BTreeSet;
 
@@ -25,7 +25,7 @@ pub struct Taken<'a> {
 
 impl Taken<'_> {
     /// Boxes and key points of those among `bodies` that cover a pixel, by instance id.
-    pub fn bodies(&self, bodies: impl IntoIterator<Item = Bystander>) -> Vec<BodyInSpace> {
+    pub fn bodies(&self, bodies: impl IntoIterator<Item = FigureInPicture>) -> Vec<BodyInSpace> {
         let runs = self.images.instance.chunk_by(|a, b| a == b);
         let shown: BTreeSet<u32> = runs.map(|run| run[0]).collect();
         let seen = bodies.into_iter().filter(|body| shown.contains(&body.instance));
@@ -34,17 +34,17 @@ impl Taken<'_> {
         all
     }
 
-    fn body(&self, body: &Bystander) -> BodyInSpace {
-        let Bystander { walker, instance } = *body;
-        let size_m = size_m(&walker);
-        let points = key_points(&walker).into_iter().flatten();
+    fn body(&self, body: &FigureInPicture) -> BodyInSpace {
+        let FigureInPicture { figure, instance } = *body;
+        let size_m = size_m(&figure);
+        let points = key_points(&figure).into_iter().flatten();
         BodyInSpace {
             frame: self.frame as u32,
             instance,
-            centre_in_world: walker.state.feet_in_world + DVec3::Z * (0.5 * size_m.z),
+            centre_in_world: figure.state.feet_in_world + DVec3::Z * (0.5 * size_m.z),
             size_m,
-            heading_rad: walker.state.heading_rad,
-            key_points: points.map(|point| self.point(point, instance, WITHIN * walker.height_m)).collect(),
+            heading_rad: figure.state.heading_rad,
+            key_points: points.map(|point| self.point(point, instance, WITHIN * figure.height_m)).collect(),
         }
     }
 
@@ -68,10 +68,10 @@ impl Taken<'_> {
 }
 
 /// Length, width and height of a body.
-fn size_m(walker: &Walker) -> DVec3 {
-    match walker.body {
+fn size_m(figure: &BodyFigure) -> DVec3 {
+    match figure.body {
         BodyShape::Vehicle { size_m, .. } => size_m,
-        BodyShape::Person { .. } => DVec3::new(2.0 * walker.radius_m, 2.0 * walker.radius_m, walker.height_m),
+        BodyShape::Person { .. } => DVec3::new(2.0 * figure.radius_m, 2.0 * figure.radius_m, figure.height_m),
     }
 }
 
@@ -85,7 +85,7 @@ mod tests {
         let camera = Camera { width: 64, height: 64, horizontal_fov_rad: 1.0 };
         let pose = Pose::looking_at(DVec3::new(-6.0, 0.0, 1.0), DVec3::new(0.0, 0.0, 1.0));
         let state = TargetState { feet_in_world: DVec3::ZERO, heading_rad: 3.1, speed_mps: 0.0 };
-        let walker = Walker {
+        let figure = BodyFigure {
             state,
             height_m: 1.75,
             radius_m: 0.3,
@@ -100,7 +100,7 @@ mod tests {
             instance: vec![7; 64 * 64],
             ..FrameImages::default()
         };
-        let bodies = [Bystander { walker, instance: 7 }, Bystander { walker, instance: 8 }];
+        let bodies = [FigureInPicture { figure, instance: 7 }, FigureInPicture { figure, instance: 8 }];
         let shown = |images: &FrameImages, camera: Camera| {
             let taken = Taken { frame: 3, images, camera, lens: Lens::default(), pose };
             let found = taken.bodies(bodies);

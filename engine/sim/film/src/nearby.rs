@@ -255,7 +255,7 @@ impl Filming<'_> {
                     let outlook = Outlook::new(&camera, &shooting.weather, &pose);
                     let eye_in_world = pose.position_in_world;
                     let matters = |other: &mut Candidate| {
-                        let walker = other.person.walker(rate.time_s(frame) + offset_s);
+                        let walker = other.person.figure(rate.time_s(frame) + offset_s);
                         let Some(walker) = walker else { return false };
                         (outlook.may_show(&walker) || body_rays::is_before(&walker, eye_in_world, &target))
                             && !scenery.buildings.hide(eye_in_world, &outlook.hull(&walker, scenery.lowest_m))

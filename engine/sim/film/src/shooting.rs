@@ -3,7 +3,7 @@
 use crate::looks::walk_seed;
 use cosfly_diagnose::Result;
 use cosfly_domain::{Camera, Followed, Mount, Noise, Optics, Trajectory, Weather};
-use cosfly_figures::{BodyShape, Walker, clothes_seed_of_target, gait_phase_rad};
+use cosfly_figures::{BodyFigure, BodyShape, clothes_seed_of_target, gait_phase_rad};
 use cosfly_frames::{Pose, Seed, TargetState, TargetTrack};
 use cosfly_render::RenderConfig;
 
@@ -77,8 +77,8 @@ impl Shooting {
     }
 
     /// The target of a flight in a state, after metres of its way.
-    pub fn target(&self, track: &TargetTrack, state: TargetState, walked_m: f64) -> Walker {
-        Walker {
+    pub fn target(&self, track: &TargetTrack, state: TargetState, walked_m: f64) -> BodyFigure {
+        BodyFigure {
             state,
             height_m: track.height_m,
             radius_m: track.radius_m,

@@ -4,7 +4,7 @@ use crate::looks::walk_seed;
 use crate::shooting::Shooting;
 use cosfly_diagnose::Result;
 use cosfly_domain::{Body, BodyKind, BodyPlan, Followed, OrientedBox, Outfit};
-use cosfly_figures::{BodyShape, Walker, outfit_of};
+use cosfly_figures::{BodyFigure, BodyShape, outfit_of};
 use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack};
 use cosfly_optics::target_state_at;
 use cosfly_pedestrians::PedestrianPath;
@@ -91,12 +91,12 @@ impl BodyOnTrack {
     }
 
     /// State and looks at a time, seconds from the flight's first frame; `None` where the body is absent.
-    pub fn walker(&self, time_s: f64) -> Option<Walker> {
+    pub fn figure(&self, time_s: f64) -> Option<BodyFigure> {
         let step = self.step(time_s)?;
         let first = step as usize;
         let last = (first + 1).min(self.track.len() - 1);
         let walked_m = self.walked_m[first] + (self.walked_m[last] - self.walked_m[first]) * (step - first as f64);
-        Some(Walker { body: self.body, ..Walker::of(&self.plan, self.state(time_s)?, walked_m) })
+        Some(BodyFigure { body: self.body, ..BodyFigure::of(&self.plan, self.state(time_s)?, walked_m) })
     }
 
     /// True where the body walks through a target with a body.

@@ -11,7 +11,7 @@ mod small_town;
 mod traffic;
 
 use cosfly_domain::Town;
-use cosfly_figures::{BodyShape, Bystander, Walker};
+use cosfly_figures::{BodyFigure, BodyShape, FigureInPicture};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
 use cosfly_maps::MapConfig;
 use cosfly_render::{FrameParts, FrameSetup, RenderConfig, Renderer, Scene, SceneScan, SceneSplats, Stages};
@@ -102,7 +102,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 /// The lane's place that is nearest to a place, and people and vehicles all over the town.
-fn spread(town: &Town, middle: DVec3, people: u32, cars: u32) -> (DVec3, Vec<Bystander>) {
+fn spread(town: &Town, middle: DVec3, people: u32, cars: u32) -> (DVec3, Vec<FigureInPicture>) {
     let mut random = Seed([3; 32]).stream("spread");
     let away = |point: &DVec3| (*point - middle).truncate().length();
     let points = town.lanes.iter().flat_map(|lane| &lane.middle_in_world).copied();
@@ -111,7 +111,7 @@ fn spread(town: &Town, middle: DVec3, people: u32, cars: u32) -> (DVec3, Vec<Bys
     for other in &mut others {
         let outline = &town.walkable[random.index(town.walkable.len())].outline_in_world;
         let corner = outline[random.index(outline.len())];
-        other.walker.state.feet_in_world = corner.lerp(outline[random.index(outline.len())], random.unit());
+        other.figure.state.feet_in_world = corner.lerp(outline[random.index(outline.len())], random.unit());
     }
     for number in 0..cars {
         let lane = &town.lanes[random.index(town.lanes.len())].middle_in_world;
@@ -130,10 +130,10 @@ fn cpu_ns(started: Instant) -> u64 {
 }
 
 /// A follower behind and above a target that walks along a street.
-fn frame(index: u32, middle: DVec3, away: DVec3) -> (Pose, Walker) {
+fn frame(index: u32, middle: DVec3, away: DVec3) -> (Pose, BodyFigure) {
     let (sin, cos) = real::sin_cos(0.01 * f64::from(index));
     let feet = middle + DVec3::new(0.2 * f64::from(index), 0.0, 0.0);
-    let target = Walker {
+    let target = BodyFigure {
         state: TargetState { feet_in_world: feet, heading_rad: 0.1, speed_mps: 1.4 },
         height_m: 1.75,
         radius_m: 0.3,

@@ -1,7 +1,7 @@
 //! Draws people of all builds side by side, and bodies of all other kinds along a street, as PNG files: `bodies OUT_DIR TOWN.xodr`.
 
 use cosfly_domain::{BodyKind, Town, WalkableKind};
-use cosfly_figures::{BodyShape, Bystander, Walker, gait_phase_rad, pedal_phase_rad};
+use cosfly_figures::{BodyFigure, BodyShape, FigureInPicture, gait_phase_rad, pedal_phase_rad};
 use cosfly_frames::{DVec2, DVec3, Pose, Seed, TargetState, real};
 use cosfly_maps::MapConfig;
 use cosfly_render::{FrameSetup, RenderConfig, Renderer, Scene};
@@ -69,13 +69,13 @@ impl Street {
         real::atan2(self.along.y, self.along.x)
     }
 
-    fn crowd(&self) -> Vec<Bystander> {
+    fn crowd(&self) -> Vec<FigureInPicture> {
         let person = |number: u32| {
             let (column, row) = (number % CROWD[0], number / CROWD[0]);
             let aside = 0.8 * (f64::from(column) - 0.5 * f64::from(CROWD[0] - 1)) + 0.4 * f64::from(row % 2);
             let seed = Seed([7; 32]).child("person", u64::from(number));
             let height_m = if number % 7 == 3 { 1.2 } else { seed.stream("height").uniform(1.55, 1.92) };
-            let walker = Walker {
+            let figure = BodyFigure {
                 state: TargetState {
                     feet_in_world: self.at(1.6 * f64::from(row), aside, 0.0),
                     heading_rad: self.heading_rad() + real::PI + [0.0, 0.9, 3.0][row as usize],
@@ -87,16 +87,16 @@ impl Street {
                 gait_phase_rad: gait_phase_rad(0.37 * f64::from(number), height_m),
                 body: BodyShape::default(),
             };
-            Bystander { walker, instance: 90_000 + number }
+            FigureInPicture { figure, instance: 90_000 + number }
         };
         (0..CROWD[0] * CROWD[1]).map(person).collect()
     }
 
-    fn park(&self) -> Vec<Bystander> {
+    fn park(&self) -> Vec<FigureInPicture> {
         let body = |(number, (kind, size_m)): (u8, (BodyKind, [f64; 3]))| {
             let (side, turn_rad) = if number.is_multiple_of(2) { (-1.8, 0.0) } else { (1.8, real::PI) };
             let height_m = if kind == BodyKind::Drone { 2.5 } else { 0.0 };
-            let walker = Walker {
+            let figure = BodyFigure {
                 state: TargetState {
                     feet_in_world: self.at(4.5 * f64::from(number), side, height_m),
                     heading_rad: self.heading_rad() + turn_rad,
@@ -108,7 +108,7 @@ impl Street {
                 gait_phase_rad: pedal_phase_rad(f64::from(number)),
                 body: BodyShape::of(kind, DVec3::from_array(size_m)),
             };
-            Bystander { walker, instance: 90_000 + u32::from(number) }
+            FigureInPicture { figure, instance: 90_000 + u32::from(number) }
         };
         (0..).zip(PARK).map(body).collect()
     }
@@ -130,8 +130,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for (mut others, views, seen) in sets {
         for (name, preset, [ahead, aside, up]) in views {
             let weather = cosfly_materials::presets::preset(preset).ok_or("no such preset")?;
-            for Bystander { walker, .. } in &mut others {
-                walker.body = walker.body.in_rain(weather.precipitation, &walker.clothes_seed);
+            for FigureInPicture { figure, .. } in &mut others {
+                figure.body = figure.body.in_rain(weather.precipitation, &figure.clothes_seed);
             }
             let pose = Pose::looking_at(street.at(ahead, aside, up), seen);
             let frame = renderer.render(&scene, &FrameSetup { pose, weather: &weather, target: None, others: &others });

@@ -1,7 +1,7 @@
 //! The book's pictures: one town at noon, sunset, in rain, fog, at night, in dust and in winter: `postcards OUT_DIR TOWN.xodr`.
 
 use cosfly_domain::{Season, Town, WalkableKind, Weather};
-use cosfly_figures::{BodyShape, Bystander, Walker, gait_phase_rad};
+use cosfly_figures::{BodyFigure, BodyShape, FigureInPicture, gait_phase_rad};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_maps::MapConfig;
 use cosfly_render::{FrameSetup, RenderConfig, Renderer, Scene};
@@ -50,7 +50,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for (name, preset, change, [back, aside, up]) in POSTCARDS {
         let mut weather = cosfly_materials::presets::preset(preset).ok_or("no such preset")?;
         change(&mut weather);
-        let target = Walker {
+        let target = BodyFigure {
             state,
             height_m: 1.75,
             radius_m: 0.3,
@@ -78,7 +78,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 /// People on the pavements and crossings around a place.
-fn passers_by(town: &Town, place: DVec3) -> Vec<Bystander> {
+fn passers_by(town: &Town, place: DVec3) -> Vec<FigureInPicture> {
     let mut random = Seed([4; 32]).stream("passers-by");
     let mut people = vec![];
     for area in &town.walkable {
@@ -95,8 +95,8 @@ fn passers_by(town: &Town, place: DVec3) -> Vec<Bystander> {
         let heading_rad = cosfly_frames::real::atan2(along.y, along.x) + turn;
         let height_m = random.uniform(1.55, 1.92);
         let number = people.len() as u8;
-        people.push(Bystander {
-            walker: Walker {
+        people.push(FigureInPicture {
+            figure: BodyFigure {
                 state: TargetState { feet_in_world: feet, heading_rad, speed_mps: random.uniform(1.1, 1.6) },
                 height_m,
                 radius_m: 0.3,

@@ -1,7 +1,7 @@
 //! Bounds of a body and of all that it may darken or light, in the world and on the screen.
 
 use crate::shade::headlights;
-use cosfly_figures::Walker;
+use cosfly_figures::BodyFigure;
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_materials::far_light::FarLight;
 use cosfly_raster::eye::Eye;
@@ -59,23 +59,23 @@ pub(crate) struct Bounds {
 }
 
 impl Bounds {
-    pub fn new(walker: &Walker) -> Self {
-        let (low, high) = walker.bounds_in_world();
-        Self { low, high, foot_m: walker.state.feet_in_world.z, lit_m: headlights::reach_m(walker) }
+    pub fn new(figure: &BodyFigure) -> Self {
+        let (low, high) = figure.bounds_in_world();
+        Self { low, high, foot_m: figure.state.feet_in_world.z, lit_m: headlights::reach_m(figure) }
     }
 
     pub fn is_in_view(&self, eye: &Eye, screen: &Screen) -> bool {
         eye.order_if_seen(screen, 0.5 * (self.low + self.high), 0.5 * (self.high - self.low)).is_some()
     }
 
-    pub fn height_px(&self, walker: &Walker, eye: &Eye, screen: &Screen) -> f64 {
+    pub fn height_px(&self, figure: &BodyFigure, eye: &Eye, screen: &Screen) -> f64 {
         let away_m = (eye.position_in_world - eye.position_in_world.clamp(self.low, self.high)).length();
-        screen.focal_px * walker.body.height_m(walker.height_m) / away_m.max(NEAR_M)
+        screen.focal_px * figure.body.height_m(figure.height_m) / away_m.max(NEAR_M)
     }
 
     /// Whether the body is large enough to be drawn, and it, its shadow or the light of its lamps may be in view.
-    pub fn may_matter(&self, walker: &Walker, eye: &Eye, screen: &Screen, far: FarLight) -> bool {
-        self.height_px(walker, eye, screen) >= LEAST_HEIGHT_PX && self.with_shadow(far).is_in_view(eye, screen)
+    pub fn may_matter(&self, figure: &BodyFigure, eye: &Eye, screen: &Screen, far: FarLight) -> bool {
+        self.height_px(figure, eye, screen) >= LEAST_HEIGHT_PX && self.with_shadow(far).is_in_view(eye, screen)
     }
 
     /// Way along the sun's rays down to the lowest ground that counts.
@@ -137,7 +137,7 @@ impl Bounds {
 mod tests {
     use super::*;
     use cosfly_domain::{BodyKind, Camera};
-    use cosfly_figures::{BodyShape, Posture, walker_triangles};
+    use cosfly_figures::{BodyShape, Posture, figure_triangles};
     use cosfly_frames::{Pose, Seed, TargetState};
 
     #[test]
@@ -147,7 +147,7 @@ mod tests {
         let eye = Eye::new(&Pose::looking_at(DVec3::new(-12.0, 3.0, 9.0), DVec3::new(0.0, 0.0, 1.0)));
         for step in 0..24 {
             let turn = f64::from(step) * 0.7;
-            let walker = Walker {
+            let figure = BodyFigure {
                 state: TargetState { feet_in_world: DVec3::new(0.3, -1.0, 0.2), heading_rad: turn, speed_mps: 1.6 },
                 height_m: 1.8,
                 radius_m: 0.3,
@@ -160,11 +160,11 @@ mod tests {
                 },
             };
             let to_sun = DVec3::new(libm::cos(turn), libm::sin(turn), 0.3 + 0.1 * turn).normalize();
-            let bounds = Bounds::new(&walker);
+            let bounds = Bounds::new(&figure);
             let far = FarLight { to_sun, is_night: step % 2 == 0 };
             let Reach([left, top, right, bottom]) = bounds.reach(&eye, &screen, far);
             let shaded = bounds.with_shadow(far);
-            for corner in walker_triangles(&walker).into_iter().flatten() {
+            for corner in figure_triangles(&figure).into_iter().flatten() {
                 let tip = corner - to_sun * ((corner.z + 1.0) / to_sun.z);
                 for point in [corner, 0.5 * (corner + tip), tip] {
                     let [u, v] = screen.point(eye.see(point));

@@ -23,7 +23,7 @@ use crate::target_view;
 use comparison::Comparison;
 use cosfly_domain::channels;
 use cosfly_domain::{BodyView, Camera, ChannelImage, FrameImages, Lens, MotionBlur, Noise, RollingShutter, StereoEye};
-use cosfly_figures::Bystander;
+use cosfly_figures::FigureInPicture;
 use cosfly_frames::simd::Level;
 use cosfly_frames::{Pose, Seed};
 use cosfly_optics::{Exposure, add_noise};
@@ -52,7 +52,7 @@ pub struct Effects {
     covered: Vec<u32>,
     occluders: Vec<u32>,
     mask: Vec<bool>,
-    bystanders: Vec<Bystander>,
+    bystanders: Vec<FigureInPicture>,
     seen: Vec<BodyView>,
     comparison: Comparison,
 }

@@ -2,7 +2,7 @@
 
 use crate::body_bounds::Bounds;
 use cosfly_domain::{Camera, Weather};
-use cosfly_figures::Walker;
+use cosfly_figures::BodyFigure;
 use cosfly_frames::{DVec3, Pose};
 use cosfly_materials::far_light::FarLight;
 use cosfly_raster::eye::Eye;
@@ -23,14 +23,14 @@ impl Outlook {
 
     /// False where every renderer leaves a person out, whatever hides or surrounds them: the body is less than a pixel
     /// high, or neither the body nor its shadow nor the light of its lamps is in view.
-    pub fn may_show(&self, walker: &Walker) -> bool {
-        walker.has_body() && Bounds::new(walker).may_matter(walker, &self.eye, &self.screen, self.far)
+    pub fn may_show(&self, figure: &BodyFigure) -> bool {
+        figure.has_body() && Bounds::new(figure).may_matter(figure, &self.eye, &self.screen, self.far)
     }
 
     /// Corners of a convex hull around a body and all that it darkens or lights above a height, metres: whatever hides the hull from
     /// the camera hides all of that.
-    pub fn hull(&self, walker: &Walker, lowest_m: f64) -> [DVec3; 16] {
-        Bounds::new(walker).hull(lowest_m, self.far)
+    pub fn hull(&self, figure: &BodyFigure, lowest_m: f64) -> [DVec3; 16] {
+        Bounds::new(figure).hull(lowest_m, self.far)
     }
 }
 
@@ -40,8 +40,8 @@ mod tests {
     use cosfly_figures::BodyShape;
     use cosfly_frames::{Seed, TargetState};
 
-    fn walker(x: f64, y: f64) -> Walker {
-        Walker {
+    fn figure(x: f64, y: f64) -> BodyFigure {
+        BodyFigure {
             state: TargetState { feet_in_world: DVec3::new(x, y, 0.0), heading_rad: 0.4, speed_mps: 1.3 },
             height_m: 1.8,
             radius_m: 0.3,
@@ -58,13 +58,13 @@ mod tests {
         (weather.sun_altitude_angle, weather.sun_azimuth_angle) = (20.0, 0.0);
         let pose = Pose::looking_at(DVec3::new(0.0, 0.0, 10.0), DVec3::new(0.0, 30.0, 0.0));
         let outlook = Outlook::new(&camera, &weather, &pose);
-        assert!(outlook.may_show(&walker(0.0, 30.0)) && outlook.may_show(&walker(5.0, 60.0)));
-        assert!(!outlook.may_show(&walker(0.0, -30.0)));
+        assert!(outlook.may_show(&figure(0.0, 30.0)) && outlook.may_show(&figure(5.0, 60.0)));
+        assert!(!outlook.may_show(&figure(0.0, -30.0)));
         // The shadow falls away from the sun.
-        let beside = [walker(22.0, 30.0), walker(-22.0, 30.0)].map(|walker| outlook.may_show(&walker));
+        let beside = [figure(22.0, 30.0), figure(-22.0, 30.0)].map(|figure| outlook.may_show(&figure));
         assert_eq!(beside.iter().filter(|shows| **shows).count(), 1);
         // Farther than a body is a pixel high.
-        assert!(!outlook.may_show(&walker(0.0, 1500.0)));
+        assert!(!outlook.may_show(&figure(0.0, 1500.0)));
     }
 
     #[test]
@@ -73,10 +73,10 @@ mod tests {
         let camera = Camera { width: 64, height: 36, horizontal_fov_rad: 1.0 };
         let pose = Pose::looking_at(DVec3::new(0.0, 0.0, 10.0), DVec3::ZERO);
         let outlook = Outlook::new(&camera, &weather, &pose);
-        let walker = walker(3.0, 4.0);
-        let (flat, deep) = (outlook.hull(&walker, 0.0), outlook.hull(&walker, -100.0));
+        let figure = figure(3.0, 4.0);
+        let (flat, deep) = (outlook.hull(&figure, 0.0), outlook.hull(&figure, -100.0));
         let length = |hull: &[DVec3]| {
-            let far = hull.iter().map(|corner| (*corner - walker.state.feet_in_world).truncate().length());
+            let far = hull.iter().map(|corner| (*corner - figure.state.feet_in_world).truncate().length());
             far.fold(0.0, f64::max)
         };
         assert!(length(&flat) > 4.0 && length(&flat) < length(&deep) && length(&deep) < 100.0);

@@ -2,7 +2,7 @@
 
 use crate::props::Props;
 use cosfly_domain::{ObstacleKind, Town, object_instance};
-use cosfly_figures::{BodyShape, Bystander, Walker};
+use cosfly_figures::{BodyFigure, BodyShape, FigureInPicture};
 use cosfly_frames::{DVec3, Seed, TargetState, real};
 use cosfly_materials::parts::SceneBox;
 use cosfly_models::stands;
@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 
 /// The cars of a town that no model draws and that are one box of a vehicle's size; `seed` draws their looks. They fill
 /// their boxes along the longer side, so that what certificates and planners keep away from holds all of them.
-pub(crate) fn parked_cars(town: &Town, props: &Props, seed: Seed) -> Vec<Bystander> {
+pub(crate) fn parked_cars(town: &Town, props: &Props, seed: Seed) -> Vec<FigureInPicture> {
     let drawn: BTreeSet<u32> = props.props.iter().map(|prop| prop.instance).collect();
     let mut seen = BTreeSet::new();
     let several: BTreeSet<u32> =
@@ -26,7 +26,7 @@ pub(crate) fn parked_cars(town: &Town, props: &Props, seed: Seed) -> Vec<Bystand
             (size_m, yaw_rad)
         };
         let feet_in_world = stand.center_in_world - DVec3::Z * stand.half_extents_m.z;
-        let walker = Walker {
+        let figure = BodyFigure {
             state: TargetState { feet_in_world, heading_rad, speed_mps: 0.0 },
             height_m: size_m.z,
             radius_m: 0.5 * size_m.y,
@@ -34,13 +34,13 @@ pub(crate) fn parked_cars(town: &Town, props: &Props, seed: Seed) -> Vec<Bystand
             gait_phase_rad: 0.0,
             body: BodyShape::of_vehicle_in(size_m)?,
         };
-        Some(Bystander { walker, instance: object_instance(object_id) })
+        Some(FigureInPicture { figure, instance: object_instance(object_id) })
     });
     parked.collect()
 }
 
 /// Leaves out the boxes of cars that are drawn as vehicles.
-pub(crate) fn leave_out(parked: &[Bystander], boxes: &mut Vec<SceneBox>) {
+pub(crate) fn leave_out(parked: &[FigureInPicture], boxes: &mut Vec<SceneBox>) {
     let drawn: BTreeSet<u32> = parked.iter().map(|car| car.instance).collect();
     boxes.retain(|b| !drawn.contains(&b.instance));
 }

@@ -5,7 +5,7 @@ use crate::found::BodyPart;
 use crate::setup::FrameSetup;
 use cosfly_domain::{ObstacleKind, SemanticLabel, TARGET_INSTANCE};
 use cosfly_figures::{
-    BodyShape, Bystander, Clothes, FigureTriangle, Fittings, Livery, Region, Walker, Wardrobe, figure,
+    BodyFigure, BodyShape, Clothes, FigureInPicture, FigureTriangle, Fittings, Livery, Region, Wardrobe, add_figure,
 };
 use cosfly_frames::{DVec3, real};
 use cosfly_materials::far_light::FarLight;
@@ -17,7 +17,7 @@ use std::ops::Range;
 
 /// Somebody whose figure is built in this frame.
 pub(crate) struct Person {
-    pub walker: Walker,
+    pub figure: BodyFigure,
     pub clothes: Clothes,
     /// Of a vehicle.
     pub fittings: Fittings,
@@ -75,7 +75,7 @@ impl People {
         self.members.clear();
         self.triangles.clear();
         self.looks.clear();
-        if let Some(target) = setup.target.filter(Walker::has_body) {
+        if let Some(target) = setup.target.filter(BodyFigure::has_body) {
             let body = Bounds::new(&target);
             let height_px = body.height_px(&target, eye, screen);
             self.add(target, TARGET_INSTANCE, true, body.reach(eye, screen, far), height_px, Built::ForPicture);
@@ -83,21 +83,27 @@ impl People {
     }
 
     /// Adds those who may matter to the picture; `drawn` is what may hide them.
-    pub fn gather(&mut self, bodies: &[Bystander], (eye, screen): (&Eye, &Screen), far: FarLight, drawn: &Nearer) {
-        for other in bodies.iter().filter(|other| other.walker.has_body()) {
-            let body = Bounds::new(&other.walker);
-            let may_matter = body.may_matter(&other.walker, eye, screen, far);
+    pub fn gather(
+        &mut self,
+        bodies: &[FigureInPicture],
+        (eye, screen): (&Eye, &Screen),
+        far: FarLight,
+        drawn: &Nearer,
+    ) {
+        for other in bodies.iter().filter(|other| other.figure.has_body()) {
+            let body = Bounds::new(&other.figure);
+            let may_matter = body.may_matter(&other.figure, eye, screen, far);
             if !may_matter || body.with_shadow(far).is_hidden(eye, screen, drawn) {
                 continue;
             }
-            let height_px = body.height_px(&other.walker, eye, screen);
+            let height_px = body.height_px(&other.figure, eye, screen);
             let is_seen = body.is_in_view(eye, screen) && !body.is_hidden(eye, screen, drawn);
-            self.add(other.walker, other.instance, is_seen, body.reach(eye, screen, far), height_px, Built::ForPicture);
+            self.add(other.figure, other.instance, is_seen, body.reach(eye, screen, far), height_px, Built::ForPicture);
         }
     }
 
     /// Adds the cars of the town that may matter to the picture.
-    pub fn gather_parked(&mut self, cars: &[Bystander], seen_by: (&Eye, &Screen), far: FarLight, drawn: &Nearer) {
+    pub fn gather_parked(&mut self, cars: &[FigureInPicture], seen_by: (&Eye, &Screen), far: FarLight, drawn: &Nearer) {
         let first = self.members.len();
         self.gather(cars, seen_by, far, drawn);
         self.members[first..].iter_mut().for_each(|car| car.town_label = Some(ObstacleKind::Car.label()));
@@ -123,24 +129,24 @@ impl People {
             }
         }
         let target = setup.target.map(|target| (target, TARGET_INSTANCE));
-        let others = setup.others.iter().map(|other| Some((other.walker, other.instance)));
+        let others = setup.others.iter().map(|other| Some((other.figure, other.instance)));
         for (who, body) in core::iter::once(target).chain(others).enumerate() {
-            let Some((walker, instance)) = body.filter(|(walker, _)| walker.has_body()) else { continue };
-            let (bounds, is_target) = (Bounds::new(&walker), who == 0);
+            let Some((figure, instance)) = body.filter(|(figure, _)| figure.has_body()) else { continue };
+            let (bounds, is_target) = (Bounds::new(&figure), who == 0);
             let darkens = drawn.is_some_and(|drawn| {
                 is_target
-                    || bounds.may_matter(&walker, eye, screen, far)
+                    || bounds.may_matter(&figure, eye, screen, far)
                         && !bounds.with_shadow(far).is_hidden(eye, screen, drawn)
             });
             if darkens {
-                let height_px = bounds.height_px(&walker, eye, screen);
+                let height_px = bounds.height_px(&figure, eye, screen);
                 let reach = bounds.reach(eye, screen, far);
                 self.found[who] = Some(self.members.len() as u32);
-                self.add(walker, instance, true, reach, height_px, Built::OfVehicles);
+                self.add(figure, instance, true, reach, height_px, Built::OfVehicles);
             } else if self.found[who].is_some() {
                 self.found[who] = Some(self.members.len() as u32);
                 let built = if drawn.is_some() { Built::OfVehicles } else { Built::Never };
-                self.add(walker, instance, true, Reach::NOWHERE, 0.0, built);
+                self.add(figure, instance, true, Reach::NOWHERE, 0.0, built);
             }
         }
         let found = &self.found;
@@ -150,25 +156,25 @@ impl People {
         }));
     }
 
-    fn add(&mut self, walker: Walker, instance: u32, is_seen: bool, reach: Reach, height_px: f64, built: Built) {
+    fn add(&mut self, figure: BodyFigure, instance: u32, is_seen: bool, reach: Reach, height_px: f64, built: Built) {
         let first = self.triangles.len();
-        let clothes = *self.wardrobe.clothes(&walker.clothes_seed);
-        let is_person = walker.body.is_person();
+        let clothes = *self.wardrobe.clothes(&figure.clothes_seed);
+        let is_person = figure.body.is_person();
         if built == Built::ForPicture || built == Built::OfVehicles && !is_person {
-            figure(&walker, &clothes, self.members.len() as u32, &mut self.triangles);
+            add_figure(&figure, &clothes, self.members.len() as u32, &mut self.triangles);
         }
         let triangles = first..self.triangles.len();
-        let mut colours = match walker.body {
+        let mut colours = match figure.body {
             BodyShape::Person { .. } => [[0.0; 3]; Region::COUNT],
-            BodyShape::Vehicle { .. } => Livery::draw(&walker.body, &walker.clothes_seed).colours(&walker.body),
+            BodyShape::Vehicle { .. } => Livery::draw(&figure.body, &figure.clothes_seed).colours(&figure.body),
         };
         colours[..clothes.colours.len()].copy_from_slice(&clothes.colours);
-        let (sin, cos) = real::sin_cos(walker.state.heading_rad);
+        let (sin, cos) = real::sin_cos(figure.state.heading_rad);
         let side_in_world = Vec3::new(-sin as f32, cos as f32, 0.0);
         self.members.push(Person {
-            walker,
+            figure,
             clothes,
-            fittings: Fittings::of(&walker),
+            fittings: Fittings::of(&figure),
             colours,
             side_in_world,
             instance,

@@ -448,7 +448,7 @@ impl Renderer {
                         self.alone.draw_polygon(&self.screen, &corners, &plane, 0.0, number);
                     }
                     let source = FaceSource::Figure { look, first_face, triangle: triangle_number, is_cloth };
-                    let label = person.town_label.unwrap_or_else(|| person.walker.body.label(triangle.region)).id();
+                    let label = person.town_label.unwrap_or_else(|| person.figure.body.label(triangle.region)).id();
                     let normal = triangle.normal_in_world.as_vec3().to_array();
                     self.faces.push(DrawnFace { plane, normal, source, label, instance: person.instance });
                 }

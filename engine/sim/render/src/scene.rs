@@ -8,7 +8,7 @@ use crate::shade::material::colour_of;
 use crate::shade::outskirts::Outskirts;
 use crate::shade::sun_tiles::SunMaps;
 use cosfly_domain::{ObstacleKind, Season, Town};
-use cosfly_figures::{Bystander, Clothes, figure};
+use cosfly_figures::{Clothes, FigureInPicture, add_figure};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_materials::building_forms::tell_forms;
 use cosfly_materials::drawn_shapes::cut_to_drawn;
@@ -55,7 +55,7 @@ pub struct Scene {
     pub(crate) outskirts: Outskirts,
     pub(crate) props: Props,
     /// Cars of the town as vehicles.
-    pub(crate) parked: Vec<Bystander>,
+    pub(crate) parked: Vec<FigureInPicture>,
     /// A scan's triangles, in the place of boxes, models and parked cars; ground shows through its holes.
     pub(crate) mesh: Option<Arc<SceneMesh>>,
     /// A scan's colours, in the place of those of boxes and ground.
@@ -116,7 +116,7 @@ impl Scene {
         Self::of(town, seed, models, |props| parked_cars(town, props, seed))
     }
 
-    fn of(town: &Town, seed: Seed, models: &[SceneModel], cars: impl FnOnce(&Props) -> Vec<Bystander>) -> Self {
+    fn of(town: &Town, seed: Seed, models: &[SceneModel], cars: impl FnOnce(&Props) -> Vec<FigureInPicture>) -> Self {
         let look_seed = (seed.child("looks", 0).as_u64() >> 32) as u32;
         let mut boxes = boxes_of(town, look_seed);
         join_wholes(&mut boxes);
@@ -202,7 +202,7 @@ impl Scene {
     }
 
     /// Cars of the town as vehicles, which are drawn in the place of their boxes.
-    pub fn parked(&self) -> &[Bystander] {
+    pub fn parked(&self) -> &[FigureInPicture] {
         &self.parked
     }
 
@@ -242,7 +242,7 @@ impl Scene {
         }
         let mut figures = vec![];
         for car in &self.parked {
-            figure(&car.walker, &Clothes::draw(&car.walker.clothes_seed), 0, &mut figures);
+            add_figure(&car.figure, &Clothes::draw(&car.figure.clothes_seed), 0, &mut figures);
             triangles.extend(figures.drain(..).map(|triangle| SceneTriangle {
                 corners_in_world: triangle.corners_in_world,
                 label: ObstacleKind::Car.label().id(),

@@ -2,7 +2,7 @@
 
 use cosfly_domain::channels::mask_amodal;
 use cosfly_domain::{BodyView, FrameImages, PixelBox, TARGET_INSTANCE, TargetView};
-use cosfly_figures::Bystander;
+use cosfly_figures::FigureInPicture;
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
 use cosfly_raster::visibility::{NO_FACE, Visibility};
@@ -62,7 +62,12 @@ pub fn measure(images: &FrameImages, covered: &[u32], occluders: &mut Vec<u32>) 
 }
 
 /// Views of `others` in `images`, by instance id.
-pub(crate) fn measure_bodies(level: Level, images: &FrameImages, others: &[Bystander], views: &mut Vec<BodyView>) {
+pub(crate) fn measure_bodies(
+    level: Level,
+    images: &FrameImages,
+    others: &[FigureInPicture],
+    views: &mut Vec<BodyView>,
+) {
     views.clear();
     // People's ids come after those of objects: most pixels are told by one comparison.
     let ids = others.iter().map(|other| other.instance);

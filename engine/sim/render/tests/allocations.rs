@@ -5,7 +5,7 @@ mod small_town;
 mod traffic;
 
 use cosfly_domain::Camera;
-use cosfly_figures::{BodyShape, Walker};
+use cosfly_figures::{BodyFigure, BodyShape};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
 use cosfly_render::{FrameSetup, Renderer, Scene};
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -55,7 +55,7 @@ fn the_second_pass_over_a_flight_with_people_and_vehicles_allocates_nothing() {
         for frame in 0..30 {
             let (sin, cos) = real::sin_cos(0.1 * f64::from(frame));
             let feet = DVec3::new(5.0 + 0.4 * f64::from(frame), -16.0, 0.1);
-            let target = Walker {
+            let target = BodyFigure {
                 state: TargetState { feet_in_world: feet, heading_rad: 0.0, speed_mps: 1.3 },
                 height_m: 1.8,
                 radius_m: 0.3,

@@ -7,7 +7,7 @@ use cosfly_domain::{
     BodyKind, Camera, Channel, ChannelSet, FrameImages, Lens, LensModel, MotionBlur, Mount, RollingShutter,
     SemanticLabel, StereoEye, TARGET_INSTANCE, Weather,
 };
-use cosfly_figures::{BodyShape, Bystander, Walker};
+use cosfly_figures::{BodyFigure, BodyShape, FigureInPicture};
 use cosfly_frames::{DMat3, DVec3, Pose, Seed, TargetState, real};
 use cosfly_render::{Effects, FrameBeside, FrameParts, FrameSetup, Moment, Neighbours, Renderer, Scene, Shot};
 
@@ -101,12 +101,12 @@ fn lens_and_rolling_shutter_carry_the_channels_along() {
 }
 
 /// A moment of a flight past a car and a person that move, `frame` frames of a tenth of a second later.
-fn moving(frame: f64) -> (Moment, Vec<Bystander>) {
+fn moving(frame: f64) -> (Moment, Vec<FigureInPicture>) {
     let mut camera = pose();
     camera.position_in_world += DVec3::new(0.35, -0.12, 0.05) * frame;
     camera.yaw_rad += 0.01 * frame;
     let feet_in_world = DVec3::new(2.0 + 0.14 * frame, -22.0, 0.0);
-    let walker = |state: TargetState, body: BodyShape, height_m: f64| Walker {
+    let figure = |state: TargetState, body: BodyShape, height_m: f64| BodyFigure {
         state,
         height_m,
         radius_m: 0.3,
@@ -114,11 +114,11 @@ fn moving(frame: f64) -> (Moment, Vec<Bystander>) {
         gait_phase_rad: 0.6 * frame,
         body,
     };
-    let target = walker(TargetState { feet_in_world, heading_rad: 0.0, speed_mps: 1.4 }, BodyShape::default(), 1.8);
+    let target = figure(TargetState { feet_in_world, heading_rad: 0.0, speed_mps: 1.4 }, BodyShape::default(), 1.8);
     let heading_rad = 0.5 + 0.04 * frame;
     let state = TargetState { feet_in_world: DVec3::new(5.0 + 0.5 * frame, -24.5, 0.0), heading_rad, speed_mps: 5.0 };
-    let car = walker(state, BodyShape::of(BodyKind::Car, DVec3::new(4.4, 1.8, 1.5)), 1.5);
-    (Moment { pose: camera, target: Some(target) }, vec![Bystander { walker: car, instance: CAR }])
+    let car = figure(state, BodyShape::of(BodyKind::Car, DVec3::new(4.4, 1.8, 1.5)), 1.5);
+    (Moment { pose: camera, target: Some(target) }, vec![FigureInPicture { figure: car, instance: CAR }])
 }
 
 const CAR: u32 = 900;
@@ -126,7 +126,7 @@ const CAR: u32 = 900;
 fn filmed(frame: i32, lens: Lens, rolling: RollingShutter) -> FrameImages {
     let at = |frame: i32| {
         let seconds = move |offset_s: f64| f64::from(frame) + 10.0 * offset_s;
-        let others = move |offset_s: f64, list: &mut Vec<Bystander>| list.extend(moving(seconds(offset_s)).1);
+        let others = move |offset_s: f64, list: &mut Vec<FigureInPicture>| list.extend(moving(seconds(offset_s)).1);
         (move |offset_s: f64| moving(seconds(offset_s)).0, others)
     };
     let (before, now, after) = (at(frame - 1), at(frame), at(frame + 1));
@@ -175,7 +175,7 @@ fn flow_is_the_way_of_the_point_through_depth_poses_and_lens() {
                     _ => 0,
                 };
                 if kind == 1 {
-                    let [from, to] = [1.0, other].map(|frame| moving(frame).1[0].walker.state);
+                    let [from, to] = [1.0, other].map(|frame| moving(frame).1[0].figure.state);
                     let turn = DMat3::from_rotation_z(to.heading_rad - from.heading_rad);
                     point = to.feet_in_world + turn * (point - from.feet_in_world);
                 }

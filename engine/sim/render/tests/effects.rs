@@ -5,7 +5,7 @@ mod small_town;
 use cosfly_domain::{
     Camera, FrameImages, Lens, MotionBlur, Noise, PixelBox, RollingShutter, TARGET_INSTANCE, TargetView, Weather,
 };
-use cosfly_figures::{BodyShape, Bystander, Walker};
+use cosfly_figures::{BodyFigure, BodyShape, FigureInPicture};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_render::{Effects, Moment, Neighbours, Renderer, Scene, Shot};
 use std::cell::RefCell;
@@ -16,7 +16,7 @@ const FEET: DVec3 = DVec3::new(0.0, -24.0, 0.1);
 fn moment(offset_s: f64) -> Moment {
     let feet = FEET + DVec3::X * (4.0 * offset_s);
     let state = TargetState { feet_in_world: feet, heading_rad: 0.4, speed_mps: 4.0 };
-    let target = Walker {
+    let target = BodyFigure {
         state,
         height_m: 1.8,
         radius_m: 0.3,
@@ -175,7 +175,7 @@ fn a_film_looks_at_its_moments_and_at_no_other() {
         let mut effects = Effects::new(camera, Lens::default(), blur, rolling);
         effects.set_noise(Noise { gaussian: 1.0, shot: 0.0 });
         let (moments_s, asked) = (effects.moments_s(), RefCell::new(vec![]));
-        let others = |offset_s: f64, _: &mut Vec<Bystander>| asked.borrow_mut().push(offset_s);
+        let others = |offset_s: f64, _: &mut Vec<FigureInPicture>| asked.borrow_mut().push(offset_s);
         let shot = Shot {
             weather: &weather,
             moment: &moment,

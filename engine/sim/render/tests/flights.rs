@@ -1,7 +1,7 @@
 //! Flights through the default town: labels by rays and by pixels, boxes, and depth carried from frame to frame.
 
 use cosfly_domain::{Camera, FrameImages, TARGET_INSTANCE, TargetView, Town, WalkableKind, Weather};
-use cosfly_figures::{BodyShape, Walker, walker_triangles};
+use cosfly_figures::{BodyFigure, BodyShape, figure_triangles};
 use cosfly_frames::{DVec3, Pose, RandomStream, Seed, TargetState, real};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_maps::MapConfig;
@@ -17,7 +17,7 @@ fn default_town() -> Town {
 }
 
 /// A walk along a pavement with a drone that flies behind it, `frames` long, anywhere in the town.
-fn flight(town: &Town, random: &mut RandomStream, frames: usize) -> Vec<(Pose, Walker)> {
+fn flight(town: &Town, random: &mut RandomStream, frames: usize) -> Vec<(Pose, BodyFigure)> {
     let pavements: Vec<_> = town.walkable.iter().filter(|area| area.kind == WalkableKind::Sidewalk).collect();
     let outline = &pavements[random.index(pavements.len())].outline_in_world;
     let start = outline[random.index(outline.len())];
@@ -29,7 +29,7 @@ fn flight(town: &Town, random: &mut RandomStream, frames: usize) -> Vec<(Pose, W
     let frame = |number: usize| {
         let walked_m = 1.3 * DT_S * number as f64;
         let feet = start + DVec3::new(cos, sin, 0.0) * walked_m;
-        let target = Walker {
+        let target = BodyFigure {
             state: TargetState { feet_in_world: feet, heading_rad, speed_mps: 1.3 },
             height_m: 1.75,
             radius_m: 0.3,
@@ -43,7 +43,7 @@ fn flight(town: &Town, random: &mut RandomStream, frames: usize) -> Vec<(Pose, W
     (0..frames).map(frame).collect()
 }
 
-fn draw(renderer: &mut Renderer, scene: &Scene, pose: Pose, target: Walker) -> (FrameImages, TargetView, Vec<u32>) {
+fn draw(renderer: &mut Renderer, scene: &Scene, pose: Pose, target: BodyFigure) -> (FrameImages, TargetView, Vec<u32>) {
     let weather = cosfly_materials::presets::preset("ClearNoon").expect("a preset");
     let setup = FrameSetup { pose, weather: &weather, target: Some(target), others: &[] };
     let frame = renderer.render_parts(scene, &setup, FrameParts::Ids);
@@ -52,9 +52,9 @@ fn draw(renderer: &mut Renderer, scene: &Scene, pose: Pose, target: Walker) -> (
 
 /// Share of the body that rays reach, cast 3 x 3 per pixel through the box of the whole body, independent of the
 /// renderer: against the triangles of the body, then against the boxes of the town.
-fn visible_by_dense_rays(boxes: &BoxBvh, pose: &Pose, target: &Walker, view: &TargetView) -> Option<f64> {
+fn visible_by_dense_rays(boxes: &BoxBvh, pose: &Pose, target: &BodyFigure, view: &TargetView) -> Option<f64> {
     let full = view.full_box?;
-    let triangles = walker_triangles(target);
+    let triangles = figure_triangles(target);
     let (mut hit, mut free) = (0u32, 0u32);
     for row in 3 * full.v_min..3 * (full.v_max + 1) {
         for column in 3 * full.u_min..3 * (full.u_max + 1) {

@@ -3,7 +3,7 @@
 mod small_town;
 
 use cosfly_domain::{Camera, Lens, MotionBlur, Noise, RollingShutter};
-use cosfly_figures::{BodyShape, Walker};
+use cosfly_figures::{BodyFigure, BodyShape};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
 use cosfly_render::{Effects, Moment, Neighbours, Renderer, Scene, Shot};
 
@@ -34,7 +34,7 @@ fn ten_thousand_frames_take_no_more_memory_than_a_thousand() {
         let feet = DVec3::new(20.0 * cos, 20.0 * sin, 0.1);
         let moment = |_: f64| Moment {
             pose: Pose::looking_at(feet + DVec3::new(-9.0 * sin, 9.0 * cos, 8.0), feet),
-            target: Some(Walker {
+            target: Some(BodyFigure {
                 state: TargetState { feet_in_world: feet, heading_rad: 0.0, speed_mps: 1.0 },
                 height_m: 1.8,
                 radius_m: 0.3,

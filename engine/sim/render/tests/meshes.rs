@@ -1,7 +1,7 @@
 //! Textured meshes in pictures: baked light, cut-outs, bodies and their shadows.
 
 use cosfly_domain::{Camera, FrameImages, Optics, SemanticLabel, TARGET_INSTANCE, Weather};
-use cosfly_figures::{BodyShape, Walker};
+use cosfly_figures::{BodyFigure, BodyShape};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_maps::{MapConfig, read_town};
@@ -37,8 +37,8 @@ fn night() -> Weather {
     cosfly_materials::presets::preset("ClearNight").expect("a preset")
 }
 
-fn body() -> Walker {
-    Walker {
+fn body() -> BodyFigure {
+    BodyFigure {
         state: TargetState { feet_in_world: FEET, heading_rad: 0.1, speed_mps: 1.4 },
         height_m: 1.75,
         radius_m: 0.3,
@@ -48,7 +48,7 @@ fn body() -> Walker {
     }
 }
 
-fn draw(scene: &Scene, pose: Pose, target: Option<Walker>, weather: &Weather) -> FrameImages {
+fn draw(scene: &Scene, pose: Pose, target: Option<BodyFigure>, weather: &Weather) -> FrameImages {
     draw_by(&mut Renderer::new(CAMERA), scene, pose, target, weather)
 }
 
@@ -56,7 +56,7 @@ fn draw_by(
     renderer: &mut Renderer,
     scene: &Scene,
     pose: Pose,
-    target: Option<Walker>,
+    target: Option<BodyFigure>,
     weather: &Weather,
 ) -> FrameImages {
     renderer.set_optics(Optics::IDEAL);

@@ -6,7 +6,7 @@ use cosfly_domain::{
     BodyKind, BodyView, Camera, FrameImages, Lens, MotionBlur, PixelBox, RollingShutter, SemanticLabel, SurfaceMesh,
     TARGET_INSTANCE, TargetView, Weather,
 };
-use cosfly_figures::{BodyShape, Bystander, Clothes, Walker, walker_triangles};
+use cosfly_figures::{BodyFigure, BodyShape, Clothes, FigureInPicture, figure_triangles};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Pose, RandomStream, Seed, TargetState, real};
 use cosfly_render::{Buildings, Effects, FrameSetup, Moment, Neighbours, Outlook, Renderer, Scene, Shot};
@@ -19,9 +19,9 @@ fn noon() -> Weather {
     Weather { sun_azimuth_angle: 200.0, ..cosfly_materials::presets::preset("ClearNoon").expect("a preset") }
 }
 
-fn walker(feet: DVec3, seed: u8) -> Walker {
+fn figure(feet: DVec3, seed: u8) -> BodyFigure {
     let turn = f64::from(seed);
-    Walker {
+    BodyFigure {
         state: TargetState { feet_in_world: feet, heading_rad: turn, speed_mps: 0.2 * (turn % 8.0) },
         height_m: 1.6 + 0.01 * (turn % 30.0),
         radius_m: 0.28,
@@ -31,14 +31,14 @@ fn walker(feet: DVec3, seed: u8) -> Walker {
     }
 }
 
-fn target(feet: DVec3) -> Walker {
-    walker(feet, 2)
+fn target(feet: DVec3) -> BodyFigure {
+    figure(feet, 2)
 }
 
-fn crowd(random: &mut RandomStream, around: DVec3, count: u32) -> Vec<Bystander> {
+fn crowd(random: &mut RandomStream, around: DVec3, count: u32) -> Vec<FigureInPicture> {
     let person = |k: u32| {
         let away = DVec3::new(random.uniform(-25.0, 25.0), random.uniform(-25.0, 25.0), 0.0);
-        Bystander { walker: walker(around + away, k as u8), instance: FIRST + k }
+        FigureInPicture { figure: figure(around + away, k as u8), instance: FIRST + k }
     };
     (0..count).map(person).collect()
 }
@@ -85,7 +85,7 @@ fn cast(triangles: &[([DVec3; 3], u32)], origin: DVec3, ray: DVec3) -> (f64, u32
 }
 
 /// Vehicles of all kinds and drones in the air around a place.
-fn traffic(random: &mut RandomStream, around: DVec3, count: u32) -> Vec<Bystander> {
+fn traffic(random: &mut RandomStream, around: DVec3, count: u32) -> Vec<FigureInPicture> {
     let kinds = [
         (BodyKind::Bicycle, [1.8, 0.65, 1.75]),
         (BodyKind::Motorcycle, [2.1, 0.8, 1.6]),
@@ -100,7 +100,7 @@ fn traffic(random: &mut RandomStream, around: DVec3, count: u32) -> Vec<Bystande
         let height_m = if kind == BodyKind::Drone { 5.0 + f64::from(k % 5) } else { 0.0 };
         let away = DVec3::new(random.uniform(-25.0, 25.0), random.uniform(-25.0, 25.0), height_m);
         let body = BodyShape::of(kind, DVec3::from_array(size_m));
-        Bystander { walker: Walker { body, ..walker(around + away, k as u8) }, instance: FIRST + k }
+        FigureInPicture { figure: BodyFigure { body, ..figure(around + away, k as u8) }, instance: FIRST + k }
     };
     (0..count).map(vehicle).collect()
 }
@@ -113,19 +113,19 @@ fn vehicles_and_riders_are_where_rays_meet_them_with_the_labels_of_their_kinds()
         let others = traffic(&mut random, DVec3::ZERO, 15);
         let turn = 1.3 * f64::from(round);
         let away = DVec3::new(24.0 * real::cos(turn), 24.0 * real::sin(turn), 7.0 + 5.0 * f64::from(round));
-        let followed = Walker { body: others[round as usize].walker.body, ..target(DVec3::ZERO) };
+        let followed = BodyFigure { body: others[round as usize].figure.body, ..target(DVec3::ZERO) };
         let pose = Pose::looking_at(away, DVec3::ZERO);
         let setup = FrameSetup { pose, weather: &noon(), target: Some(followed), others: &others };
         let Drawn { images, view, others: views } = draw(&mut Renderer::new(CAMERA), &scene, &setup);
         let mut drawn: Vec<_> = vec![(followed, TARGET_INSTANCE)];
-        drawn.extend(others.iter().map(|other| (other.walker, other.instance)));
+        drawn.extend(others.iter().map(|other| (other.figure, other.instance)));
         let (mut triangles, mut labels) = (vec![], vec![]);
-        for (walker, instance) in &drawn {
-            let mut figure = vec![];
-            cosfly_figures::figure(walker, &Clothes::draw(&walker.clothes_seed), 0, &mut figure);
-            for triangle in figure {
+        for (figure, instance) in &drawn {
+            let mut surface = vec![];
+            cosfly_figures::add_figure(figure, &Clothes::draw(&figure.clothes_seed), 0, &mut surface);
+            for triangle in surface {
                 triangles.push((triangle.corners_in_world, labels.len() as u32));
-                labels.push((walker.body.label(triangle.region), *instance));
+                labels.push((figure.body.label(triangle.region), *instance));
             }
         }
         labels.push((SemanticLabel::Sky, 0));
@@ -162,9 +162,9 @@ fn people_are_where_rays_meet_them_and_all_channels_agree() {
         };
         let Drawn { images, others: views, .. } = draw(&mut Renderer::new(CAMERA), &scene, &setup);
         let mut triangles: Vec<_> =
-            walker_triangles(&target(feet)).into_iter().map(|corners| (corners, TARGET_INSTANCE)).collect();
+            figure_triangles(&target(feet)).into_iter().map(|corners| (corners, TARGET_INSTANCE)).collect();
         for other in &others {
-            triangles.extend(walker_triangles(&other.walker).into_iter().map(|corners| (corners, other.instance)));
+            triangles.extend(figure_triangles(&other.figure).into_iter().map(|corners| (corners, other.instance)));
         }
         let (mut people, mut wrong) = (0, 0);
         // Where somebody is drawn, and some of all other places.
@@ -197,11 +197,11 @@ fn somebody_before_the_target_hides_it_and_somebody_behind_does_not() {
     let feet = DVec3::new(10.0, 0.0, 0.0);
     let pose = Pose::looking_at(DVec3::new(0.0, 0.0, 1.4), DVec3::new(10.0, 0.0, 1.0));
     let mut renderer = Renderer::new(CAMERA);
-    let mut view = |others: &[Bystander]| {
+    let mut view = |others: &[FigureInPicture]| {
         let setup = FrameSetup { pose, weather: &noon(), target: Some(target(feet)), others };
         draw(&mut renderer, &scene, &setup).view
     };
-    let at = |x: f64, instance: u32| Bystander { walker: walker(DVec3::new(x, 0.05, 0.0), 9), instance };
+    let at = |x: f64, instance: u32| FigureInPicture { figure: figure(DVec3::new(x, 0.05, 0.0), 9), instance };
     let alone = view(&[]);
     assert_eq!((alone.visible_by_pixels, alone.occluder_instance), (1.0, 0));
     let hidden = view(&[at(6.0, FIRST + 3), at(14.0, FIRST + 8)]);
@@ -236,8 +236,8 @@ fn people_throw_shadows_like_the_target_also_from_outside_of_the_picture() {
             roll_rad: 0.0,
         };
         let somebody = target(feet);
-        let other = [Bystander { walker: somebody, instance: FIRST }];
-        let mut picture = |target: Option<Walker>, others: &[Bystander]| {
+        let other = [FigureInPicture { figure: somebody, instance: FIRST }];
+        let mut picture = |target: Option<BodyFigure>, others: &[FigureInPicture]| {
             draw(&mut renderer, &scene, &FrameSetup { pose, weather: &weather, target, others })
         };
         let (nobody, as_target, as_other) = (picture(None, &[]), picture(Some(somebody), &[]), picture(None, &other));
@@ -282,16 +282,16 @@ fn people_without_a_body_and_far_away_draw_nothing() {
     let feet = DVec3::new(5.0, -16.0, 0.1);
     let pose = Pose::looking_at(feet + DVec3::new(-12.0, 3.0, 9.0), feet);
     let mut renderer = Renderer::new(CAMERA);
-    let mut picture = |others: &[Bystander]| {
+    let mut picture = |others: &[FigureInPicture]| {
         draw(&mut renderer, &scene, &FrameSetup { pose, weather: &noon(), target: None, others })
     };
     let nobody = picture(&[]);
-    let mut odd = [walker(feet, 1); 4];
+    let mut odd = [figure(feet, 1); 4];
     odd[0].height_m = f64::NAN;
     odd[1].state.feet_in_world.x = f64::INFINITY;
     odd[2].height_m = 0.0;
     odd[3].state.feet_in_world = feet + DVec3::new(900.0, 0.0, 0.0);
-    let odd = odd.map(|walker| Bystander { walker, instance: FIRST });
+    let odd = odd.map(|figure| FigureInPicture { figure, instance: FIRST });
     let drawn = picture(&odd);
     assert!(drawn.images == nobody.images && drawn.others.is_empty());
 }
@@ -310,17 +310,17 @@ fn people_whom_the_outlook_or_a_building_excludes_change_no_byte() {
         let mut place = |height_m: f64| DVec3::new(random.uniform(-90.0, 90.0), random.uniform(-90.0, 90.0), height_m);
         let (eye, feet) = (place(3.0 + round as f64), place(0.14));
         let pose = Pose::looking_at(eye, eye + (feet - eye).normalize());
-        let others: Vec<Bystander> =
-            (0..150).map(|k| Bystander { walker: walker(place(0.14), k as u8), instance: FIRST + k }).collect();
+        let others: Vec<FigureInPicture> =
+            (0..150).map(|k| FigureInPicture { figure: figure(place(0.14), k as u8), instance: FIRST + k }).collect();
         let outlook = Outlook::new(&CAMERA, &weather, &pose);
-        let is_near = |other: &&Bystander| {
-            let is_hidden = buildings.hide(eye, &outlook.hull(&other.walker, town.min_in_world.z));
-            outlook.may_show(&other.walker) && !is_hidden
+        let is_near = |other: &&FigureInPicture| {
+            let is_hidden = buildings.hide(eye, &outlook.hull(&other.figure, town.min_in_world.z));
+            outlook.may_show(&other.figure) && !is_hidden
         };
-        let near: Vec<Bystander> = others.iter().filter(is_near).copied().collect();
+        let near: Vec<FigureInPicture> = others.iter().filter(is_near).copied().collect();
         left_out += others.len() - near.len();
-        hidden += others.iter().filter(|other| outlook.may_show(&other.walker)).count() - near.len();
-        let mut picture = |others: &[Bystander]| {
+        hidden += others.iter().filter(|other| outlook.may_show(&other.figure)).count() - near.len();
+        let mut picture = |others: &[FigureInPicture]| {
             draw(&mut renderer, &scene, &FrameSetup { pose, weather: &weather, target: None, others })
         };
         let (all, some) = (picture(&others), picture(&near));
@@ -336,9 +336,9 @@ fn through_a_lens_and_blurred_people_move_and_keep_their_ids() {
     let moment =
         |_: f64| Moment { pose: Pose::looking_at(feet + DVec3::new(-9.0, 3.0, 4.0), feet), target: Some(target(feet)) };
     let others = |speed_mps: f64| {
-        move |offset_s: f64, list: &mut Vec<Bystander>| {
+        move |offset_s: f64, list: &mut Vec<FigureInPicture>| {
             let at = feet + DVec3::new(-2.0, 1.5 + speed_mps * offset_s, 0.0);
-            list.push(Bystander { walker: walker(at, 5), instance: FIRST });
+            list.push(FigureInPicture { figure: figure(at, 5), instance: FIRST });
         }
     };
     let blur = MotionBlur { shutter_s: 0.1, samples: 5 };

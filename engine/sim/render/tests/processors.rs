@@ -3,7 +3,7 @@
 mod small_town;
 
 use cosfly_domain::{Camera, FrameImages, Season, SemanticLabel, Weather};
-use cosfly_figures::{BodyShape, Walker};
+use cosfly_figures::{BodyFigure, BodyShape};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_render::{FrameSetup, PictureLook, Renderer, Scene};
@@ -13,7 +13,7 @@ const CAMERA: Camera = Camera { width: 333, height: 187, horizontal_fov_rad: 1.4
 fn draw(renderer: &mut Renderer, scene: &Scene, weather: &str) -> FrameImages {
     let weather = Weather { sun_azimuth_angle: 215.0, ..cosfly_materials::presets::preset(weather).expect("a preset") };
     let feet = DVec3::new(5.0, -16.0, 0.1);
-    let target = Walker {
+    let target = BodyFigure {
         state: TargetState { feet_in_world: feet, heading_rad: 0.4, speed_mps: 1.3 },
         height_m: 1.8,
         radius_m: 0.3,

@@ -3,7 +3,7 @@
 mod small_town;
 
 use cosfly_domain::{Camera, ChannelSet, FrameImages, SemanticLabel, TARGET_INSTANCE, Weather};
-use cosfly_figures::{BodyShape, Walker};
+use cosfly_figures::{BodyFigure, BodyShape};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_render::{FrameSetup, Renderer, Scene, SceneScan, SceneSplats};
 use cosfly_scans::up_axis::UpAxis;
@@ -46,7 +46,7 @@ fn noon() -> Weather {
 
 /// A frame, and the share of the target that its pixels show.
 fn drawn(scene: &Scene, pose: Pose, has_target: bool, weather: &Weather) -> (FrameImages, f64) {
-    let target = Walker {
+    let target = BodyFigure {
         state: TargetState { feet_in_world: FEET, heading_rad: 0.1, speed_mps: 1.4 },
         height_m: 1.75,
         radius_m: 0.3,

@@ -7,7 +7,7 @@ use cosfly_domain::{
     Camera, Obstacle, ObstacleKind, OrientedBox, PixelBox, Season, SemanticLabel, SurfaceMesh, TARGET_INSTANCE,
     TargetView, Town, Weather,
 };
-use cosfly_figures::{BodyShape, Walker, walker_triangles};
+use cosfly_figures::{BodyFigure, BodyShape, figure_triangles};
 use cosfly_frames::{DVec3, Pose, RandomStream, Seed, TargetState};
 use cosfly_models::{Model, ModelFit, ModelKind};
 use cosfly_render::{FrameSetup, PictureLook, Renderer, Scene, SceneModel};
@@ -20,8 +20,8 @@ fn camera(width: u32, height: u32) -> Camera {
     Camera { width, height, horizontal_fov_rad: 1.4 }
 }
 
-fn walker(feet: DVec3) -> Walker {
-    Walker {
+fn figure(feet: DVec3) -> BodyFigure {
+    BodyFigure {
         state: TargetState { feet_in_world: feet, heading_rad: 0.4, speed_mps: 1.3 },
         height_m: 1.8,
         radius_m: 0.3,
@@ -31,7 +31,7 @@ fn walker(feet: DVec3) -> Walker {
     }
 }
 
-fn draw(scene: &Scene, camera: Camera, pose: Pose, target: Option<Walker>) -> (FrameImages, TargetView) {
+fn draw(scene: &Scene, camera: Camera, pose: Pose, target: Option<BodyFigure>) -> (FrameImages, TargetView) {
     let mut renderer = Renderer::new(camera);
     let frame = renderer.render(scene, &FrameSetup { pose, weather: &noon(), target, others: &[] });
     (frame.images.clone(), frame.target_view)
@@ -58,11 +58,11 @@ fn cast(triangles: &[([DVec3; 3], u8, u32)], origin: DVec3, ray: DVec3) -> Optio
 }
 
 /// Compares every `stride`-th pixel with a ray; returns (compared, off by more than the tolerance, wrong ids).
-fn compare(scene: &Scene, camera: Camera, pose: Pose, target: Option<Walker>, stride: usize) -> [usize; 3] {
+fn compare(scene: &Scene, camera: Camera, pose: Pose, target: Option<BodyFigure>, stride: usize) -> [usize; 3] {
     let (images, _) = draw(scene, camera, pose, target);
     let mut triangles: Vec<_> = scene.triangles().iter().map(|t| (t.corners_in_world, t.label, t.instance)).collect();
     if let Some(target) = &target {
-        triangles.extend(walker_triangles(target).iter().map(|corners| (*corners, 12, TARGET_INSTANCE)));
+        triangles.extend(figure_triangles(target).iter().map(|corners| (*corners, 12, TARGET_INSTANCE)));
     }
     let mut counts = [0; 3];
     for pixel in (0..images.depth_m.len()).step_by(stride) {
@@ -235,7 +235,7 @@ fn depth_and_ids_are_those_of_rays_on_random_scenes() {
             yaw_rad: random.uniform(-0.4, 0.4),
             roll_rad: random.uniform(-0.3, 0.3),
         };
-        let target = walker(DVec3::new(random.uniform(2.0, 12.0), random.uniform(-5.0, 5.0), 1.0));
+        let target = figure(DVec3::new(random.uniform(2.0, 12.0), random.uniform(-5.0, 5.0), 1.0));
         let [compared, off, wrong] = compare(&scene, camera(320, 200), pose, Some(target), 17);
         // A ray may differ on the very edge of a triangle, where both answers are right.
         assert!(off <= compared / 1500 && wrong <= compared / 1500, "{off} and {wrong} of {compared}");
@@ -293,7 +293,7 @@ fn odd_boxes_and_sizes_do_no_harm() {
     broken.vertices_in_world[0] = DVec3::new(f64::INFINITY, 0.0, 0.0);
     town.surfaces.push(broken);
     let scene = Scene::new(&town, Seed([1; 32]));
-    let target = Some(walker(DVec3::new(4.0, 1.0, 0.0)));
+    let target = Some(figure(DVec3::new(4.0, 1.0, 0.0)));
     for (width, height) in [(64, 48), (1, 1), (0, 0), (17, 3), (3840, 2160)] {
         for position in [DVec3::new(-9.0, 0.0, 6.0), DVec3::new(4.0, 1.0, 1.0), DVec3::new(1e9, -1e12, 1e300)] {
             let pose = Pose::looking_at(position, DVec3::ZERO);
@@ -310,7 +310,7 @@ fn odd_boxes_and_sizes_do_no_harm() {
 fn a_target_behind_the_camera_is_not_in_view() {
     let scene = Scene::new(&small_town::small_town(1, 3), Seed([1; 32]));
     let pose = Pose::looking_at(DVec3::new(0.0, 0.0, 5.0), DVec3::new(10.0, 0.0, 5.0));
-    let (_, view) = draw(&scene, camera(320, 180), pose, Some(walker(DVec3::new(-8.0, 0.0, 0.0))));
+    let (_, view) = draw(&scene, camera(320, 180), pose, Some(figure(DVec3::new(-8.0, 0.0, 0.0))));
     assert!(!view.in_view && view.pixels == 0 && view.full_box.is_none() && view.visible_box.is_none());
     assert_eq!(view.visible_by_pixels, 0.0);
 }
@@ -322,7 +322,7 @@ fn the_visible_box_is_the_box_of_the_instance_pixels() {
     town.obstacles.push(Obstacle { shape: low_wall, kind: ObstacleKind::Wall, object_id: 40, synthetic: false });
     let scene = Scene::new(&town, Seed([1; 32]));
     let pose = Pose::looking_at(DVec3::new(0.0, 0.0, 1.2), DVec3::new(12.0, 0.0, 1.0));
-    let (images, view) = draw(&scene, camera(640, 480), pose, Some(walker(DVec3::new(12.0, 0.0, 0.0))));
+    let (images, view) = draw(&scene, camera(640, 480), pose, Some(figure(DVec3::new(12.0, 0.0, 0.0))));
     let pixels = images.instance.iter().enumerate().filter(|(_, id)| **id == TARGET_INSTANCE);
     let places: Vec<(u32, u32)> = pixels.map(|(i, _)| (i as u32 % 640, i as u32 / 640)).collect();
     let by = |pick: fn(&(u32, u32)) -> u32| (places.iter().map(pick).min(), places.iter().map(pick).max());
@@ -347,7 +347,7 @@ fn the_visible_box_is_the_box_of_the_instance_pixels() {
 fn the_target_stands_where_the_camera_projects_it() {
     let scene = Scene::new(&small_town::empty_town(), Seed([1; 32]));
     for (x, y) in [(14.0, 0.0), (20.0, 9.0), (11.0, -6.0)] {
-        let target = walker(DVec3::new(x, y, 0.0));
+        let target = figure(DVec3::new(x, y, 0.0));
         let pose = Pose::looking_at(DVec3::new(0.0, 0.0, 12.0), DVec3::new(14.0, 0.0, 0.0));
         let camera = camera(1280, 720);
         let (_, view) = draw(&scene, camera, pose, Some(target));
@@ -368,7 +368,7 @@ fn the_same_frame_has_the_same_bytes_after_any_other_frame_and_on_any_thread() {
         Weather { sun_azimuth_angle: 40.0, ..cosfly_materials::presets::preset("HardRainSunset").expect("a preset") };
     let feet = DVec3::new(5.0, -16.0, 0.1);
     let pose = Pose::looking_at(feet + DVec3::new(-12.0, 3.0, 15.0), feet);
-    let setup = FrameSetup { pose, weather: &rain, target: Some(walker(feet)), others: &[] };
+    let setup = FrameSetup { pose, weather: &rain, target: Some(figure(feet)), others: &[] };
     let once = Renderer::new(camera(320, 180)).render(&scene, &setup).images.clone();
     let mut used = Renderer::new(camera(320, 180));
     let elsewhere = Pose::looking_at(DVec3::new(70.0, 60.0, 9.0), DVec3::ZERO);
@@ -387,7 +387,7 @@ fn the_same_frame_has_the_same_bytes_after_any_other_frame_and_on_any_thread() {
 #[test]
 fn the_largest_and_the_smallest_pictures_have_all_their_pixels() {
     let scene = Scene::new(&small_town::small_town(2, 3), Seed([1; 32]));
-    let target = Some(walker(DVec3::new(6.0, 0.0, 0.1)));
+    let target = Some(figure(DVec3::new(6.0, 0.0, 0.1)));
     let pose = Pose::looking_at(DVec3::new(-14.0, 3.0, 12.0), DVec3::new(6.0, 0.0, 1.0));
     for (width, height) in [(7680u32, 4320u32), (64, 48), (16, 16)] {
         let mut renderer = Renderer::new(camera(width, height));

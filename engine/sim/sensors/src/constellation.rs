@@ -20,7 +20,7 @@ const EARTH_RAD_S: f64 = 7.292_115e-5;
 const EARTH_M: f64 = 6_371_000.0;
 
 /// Directions to all satellites from a place, world frame, of length 1, at a time of the day in seconds: those of 24 satellites in six
-/// planes at 55 degrees, as GPS has them (a Walker constellation 24/6/1).
+/// planes at 55 degrees, as GPS has them (a BodyFigure constellation 24/6/1).
 pub fn directions_in_world(origin: &GeoOrigin, day_s: f64) -> [DVec3; SATELLITES] {
     let (sin_lat, cos_lat) = real::sin_cos(origin.latitude_deg.to_radians());
     let (sin_lon, cos_lon) = real::sin_cos(origin.longitude_deg.to_radians());

@@ -7,7 +7,7 @@ use cosfly_diagnose::Result;
 use cosfly_domain::{Camera, PixelBox};
 use cosfly_env::EnvironmentSettings;
 use cosfly_env::pictures::bystanders_at;
-use cosfly_figures::{Bystander, Walker, gait_phase_rad};
+use cosfly_figures::{BodyFigure, FigureInPicture, gait_phase_rad};
 use cosfly_plot::canvas::Canvas;
 use cosfly_preview::{ClipShot, clip as encoded};
 use cosfly_read::LoggedFrame;
@@ -41,7 +41,7 @@ pub fn clip(task: &EpisodeTask, settings: &EnvironmentSettings, steps: &[LogLine
 fn shot(task: &EpisodeTask, scene: &Scene, renderer: &mut Renderer, line: &LogLine) -> ClipShot {
     let (track, shooting) = (&task.episode.target, &task.shooting);
     let state = task.episode.target_at(line.time_s);
-    let target = Walker {
+    let target = BodyFigure {
         state,
         height_m: track.height_m,
         radius_m: track.radius_m,
@@ -50,7 +50,7 @@ fn shot(task: &EpisodeTask, scene: &Scene, renderer: &mut Renderer, line: &LogLi
         body: shooting.body.in_rain(shooting.weather.precipitation, &shooting.clothes_seed),
     };
     let rain = shooting.weather.precipitation;
-    let others: Vec<Bystander> = bystanders_at(&task.episode, line.time_s, rain).collect();
+    let others: Vec<FigureInPicture> = bystanders_at(&task.episode, line.time_s, rain).collect();
     let setup = FrameSetup { pose: line.pose(), weather: &shooting.weather, target: Some(target), others: &others };
     let drawn = renderer.render(scene, &setup);
     let (images, view) = (drawn.images, drawn.target_view);

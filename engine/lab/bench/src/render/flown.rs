@@ -2,7 +2,7 @@
 
 use super::views::{Ground, View};
 use cosfly_domain::PlanOutcome;
-use cosfly_figures::{BodyShape, Walker, gait_phase_rad};
+use cosfly_figures::{BodyFigure, BodyShape, gait_phase_rad};
 use cosfly_frames::TargetState;
 use cosfly_geometry::BoxBvh;
 use cosfly_pedestrians::{PedestrianConfig, WalkableGrid, walk};
@@ -32,7 +32,7 @@ pub fn flown(ground: &Ground, frames: usize, count: u64) -> Vec<Vec<View>> {
                 let shown = flight.poses_in_world.iter().zip(&track.states).zip(walked_m);
                 let view = |((pose, state), walked_m): ((&_, &TargetState), f64)| View {
                     pose: *pose,
-                    target: Walker {
+                    target: BodyFigure {
                         state: *state,
                         height_m: track.height_m,
                         radius_m: track.radius_m,

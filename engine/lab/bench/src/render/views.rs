@@ -4,7 +4,7 @@ use cosfly_domain::{
     Camera, MapOrigin, Obstacle, ObstacleKind, OrientedBox, SemanticLabel, SimplificationReport, SurfaceMesh,
     Synthetic, Town, WalkableKind,
 };
-use cosfly_figures::{BodyShape, Walker, gait_phase_rad};
+use cosfly_figures::{BodyFigure, BodyShape, gait_phase_rad};
 use cosfly_frames::{DVec2, DVec3, Pose, TargetState, real};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_maps::{MapConfig, read_town};
@@ -40,7 +40,7 @@ pub struct View {
     /// Pose of the camera.
     pub pose: Pose,
     /// Target in the view.
-    pub target: Walker,
+    pub target: BodyFigure,
 }
 
 impl Ground {
@@ -131,7 +131,7 @@ fn follower(tree: &BoxBvh, feet: DVec3, index: usize) -> View {
     let chest = feet + DVec3::new(0.0, 0.0, 0.7 * HEIGHT_M);
     let turn = (0..8).map(|i| i + index).find(|turn| !tree.blocked(from(*turn), chest)).unwrap_or(index);
     let state = TargetState { feet_in_world: feet, heading_rad: 0.6 * index as f64, speed_mps: 1.4 };
-    let target = Walker {
+    let target = BodyFigure {
         state,
         height_m: HEIGHT_M,
         radius_m: 0.3,

@@ -7,7 +7,7 @@ use crate::faces::{BODY, DrawnFace, SKY};
 use crate::figures::{Around, SeenPart, Stance};
 use crate::view::BatchView;
 use cosfly_domain::{SemanticLabel, TARGET_INSTANCE};
-use cosfly_figures::{Region, Walker, figure};
+use cosfly_figures::{BodyFigure, Region, add_figure};
 use cosfly_frames::DVec3;
 use cosfly_raster::visibility::NO_FACE;
 use cosfly_render::{BodyPart, LEAST_HEIGHT_PX};
@@ -15,10 +15,10 @@ use cosfly_render::{BodyPart, LEAST_HEIGHT_PX};
 impl Painter {
     pub(super) fn draw_people(&mut self, eye: &Eye, view: &BatchView<'_>) {
         if let Some(target) = view.target.as_ref().filter(|target| target.has_body()) {
-            self.draw_walker(eye, target, (0, TARGET_INSTANCE));
+            self.draw_figure(eye, target, (0, TARGET_INSTANCE));
         }
-        for (who, other) in (1..).zip(view.others).filter(|(_, other)| other.walker.has_body()) {
-            self.draw_walker(eye, &other.walker, (who, other.instance));
+        for (who, other) in (1..).zip(view.others).filter(|(_, other)| other.figure.has_body()) {
+            self.draw_figure(eye, &other.figure, (who, other.instance));
         }
     }
 
@@ -30,27 +30,27 @@ impl Painter {
     }
 
     /// Draws somebody: `who` is 0 for the target, else one more than the place among the others.
-    fn draw_walker(&mut self, eye: &Eye, walker: &Walker, (who, instance): (u32, u32)) {
-        let (low, high) = walker.bounds_in_world();
+    fn draw_figure(&mut self, eye: &Eye, figure: &BodyFigure, (who, instance): (u32, u32)) {
+        let (low, high) = figure.bounds_in_world();
         if eye.see(0.5 * (low + high)).x < -(high - low).max_element() {
             return;
         }
         let away_m = (eye.position_in_world - eye.position_in_world.clamp(low, high)).length();
         if instance != TARGET_INSTANCE
-            && eye.focal_px * walker.body.height_m(walker.height_m) < LEAST_HEIGHT_PX * away_m
+            && eye.focal_px * figure.body.height_m(figure.height_m) < LEAST_HEIGHT_PX * away_m
         {
             return;
         }
         if !self.may_show(&Around::of_box(eye, low, high)) {
             return;
         }
-        if !walker.body.is_person() {
-            self.draw_vehicle(eye, walker, (who, instance));
+        if !figure.body.is_person() {
+            self.draw_vehicle(eye, figure, (who, instance));
             return;
         }
         let mut parts = self.body.take().unwrap_or_default();
-        parts.set(walker, self.wardrobe.clothes(&walker.clothes_seed));
-        let stance = Stance::new(eye, walker, parts.lowest());
+        parts.set(figure, self.wardrobe.clothes(&figure.clothes_seed));
+        let stance = Stance::new(eye, figure, parts.lowest());
         let face = DrawnFace { instance, label: SemanticLabel::Pedestrian.id(), ..SKY };
         let mut seen = SeenPart::default();
         for eight in parts.all().chunks(WIDE) {
@@ -65,10 +65,10 @@ impl Painter {
     }
 
     /// A vehicle with its rider, as in large pictures.
-    fn draw_vehicle(&mut self, eye: &Eye, walker: &Walker, (who, instance): (u32, u32)) {
+    fn draw_vehicle(&mut self, eye: &Eye, figure: &BodyFigure, (who, instance): (u32, u32)) {
         let mut triangles = core::mem::take(&mut self.vehicle);
         triangles.clear();
-        figure(walker, self.wardrobe.clothes(&walker.clothes_seed), 0, &mut triangles);
+        add_figure(figure, self.wardrobe.clothes(&figure.clothes_seed), 0, &mut triangles);
         // Parts of the vehicle, whose faces come in any order, and the last part of a rider.
         let mut numbers = [None; Region::COUNT];
         let mut last = (u32::MAX, NO_FACE);
@@ -82,7 +82,7 @@ impl Painter {
             } else {
                 numbers[triangle.region as usize] = Some(number);
             }
-            let label = walker.body.label(triangle.region).id();
+            let label = figure.body.label(triangle.region).id();
             let face = DrawnFace { instance, label, number, triangle: at, ..SKY };
             self.draw_triangle(eye, &triangle.corners_in_world, face);
         }

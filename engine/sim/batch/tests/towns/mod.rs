@@ -1,7 +1,7 @@
 //! Towns, places and people for tests.
 
 use cosfly_domain::{Town, WalkableKind};
-use cosfly_figures::{Bystander, Walker};
+use cosfly_figures::{BodyFigure, FigureInPicture};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_maps::{MapConfig, read_town};
@@ -35,8 +35,8 @@ pub fn generated(place: &str, seed: u64) -> Town {
 #[derive(Clone)]
 pub struct Place {
     pub pose: Pose,
-    pub target: Walker,
-    pub others: Vec<Bystander>,
+    pub target: BodyFigure,
+    pub others: Vec<FigureInPicture>,
 }
 
 /// Places of a town: on pavements, from 8 to 35 m away and 3 to 30 m above, the target in free sight; `people` of them stand
@@ -58,7 +58,7 @@ pub fn places(town: &Town, count: usize, people: u32) -> Vec<Place> {
         }
         let mut pose = Pose::looking_at(eye, feet + DVec3::Z);
         pose.roll_rad = random.uniform(-0.2, 0.2);
-        let mut walker = |feet: DVec3, number: u64| Walker {
+        let mut figure = |feet: DVec3, number: u64| BodyFigure {
             state: TargetState {
                 feet_in_world: feet,
                 heading_rad: random.uniform(-3.1, 3.1),
@@ -70,12 +70,12 @@ pub fn places(town: &Town, count: usize, people: u32) -> Vec<Place> {
             gait_phase_rad: random.uniform(-3.1, 3.1),
             body: cosfly_figures::BodyShape::default(),
         };
-        let target = walker(feet, 0);
+        let target = figure(feet, 0);
         let mut scatter = Seed([9; 32]).child("crowd", places.len() as u64).stream("crowd");
         let others = (0..people).map(|number| {
             let mut at = feet + DVec3::new(scatter.uniform(-30.0, 30.0), scatter.uniform(-30.0, 30.0), 0.0);
             at.z = index.ground_height_m(at.x, at.y).unwrap_or(feet.z);
-            Bystander { walker: walker(at, 1 + u64::from(number)), instance: 50_000 + number }
+            FigureInPicture { figure: figure(at, 1 + u64::from(number)), instance: 50_000 + number }
         });
         let others = others.collect();
         places.push(Place { pose, target, others });

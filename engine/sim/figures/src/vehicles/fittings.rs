@@ -3,9 +3,9 @@
 use super::cars;
 use super::lorries::Load;
 use super::shapes::Shape;
+use crate::body_figure::BodyFigure;
 use crate::body_shape::BodyShape;
 use crate::region::Region;
-use crate::walker::Walker;
 use cosfly_domain::BodyKind;
 use cosfly_frames::{DVec3, RandomStream};
 
@@ -100,8 +100,8 @@ const NOWHERE: f64 = 9.0;
 
 impl Fittings {
     /// Those of a body.
-    pub fn of(walker: &Walker) -> Self {
-        let mut looks = walker.clothes_seed.stream("dirt");
+    pub fn of(figure: &BodyFigure) -> Self {
+        let mut looks = figure.clothes_seed.stream("dirt");
         let dirt = looks.unit() * looks.unit();
         let flakes = looks.chance(0.7);
         let bare = Self {
@@ -121,9 +121,9 @@ impl Fittings {
             dirt,
             flakes,
         };
-        match walker.body {
+        match figure.body {
             BodyShape::Vehicle { kind: kind @ (BodyKind::Car | BodyKind::Van), size_m } => {
-                let shape = cars::shape(kind, size_m, &mut walker.clothes_seed.stream("shape"));
+                let shape = cars::shape(kind, size_m, &mut figure.clothes_seed.stream("shape"));
                 let tail_lamps = tail_lamps(shape, &mut looks);
                 let has_rear_doors = cars::has_bare_sides(shape);
                 let sign = Sign::draw(kind, !has_rear_doors, &mut looks);
@@ -131,7 +131,7 @@ impl Fittings {
             }
             BodyShape::Vehicle { kind, size_m } => {
                 let has_rear_doors =
-                    kind == BodyKind::Truck && Load::draw(&mut walker.clothes_seed.stream("shape")) == Load::Box;
+                    kind == BodyKind::Truck && Load::draw(&mut figure.clothes_seed.stream("shape")) == Load::Box;
                 Self { size_m, sign: Sign::draw(kind, true, &mut looks), has_rear_doors, ..bare }
             }
             BodyShape::Person { .. } => bare,

@@ -1,10 +1,10 @@
 //! Flat faces of a vehicle's model, in the vehicle's own axes.
 
 use crate::Clothes;
-use crate::figure::person_on_foot;
+use crate::body_figure::BodyFigure;
 use crate::frustum::{FigureTriangle, Surface, around};
+use crate::person::person_on_foot;
 use crate::region::Region;
-use crate::walker::Walker;
 use cosfly_frames::{DVec3, real};
 
 /// Panels such as windows lie this far before the sheet, metres.
@@ -28,10 +28,10 @@ pub(super) struct Model<'a> {
 }
 
 impl<'a> Model<'a> {
-    pub fn new(walker: &Walker, size_m: DVec3, person: u32, triangles: &'a mut Vec<FigureTriangle>) -> Self {
-        let (sin, cos) = real::sin_cos(walker.state.heading_rad);
+    pub fn new(figure: &BodyFigure, size_m: DVec3, person: u32, triangles: &'a mut Vec<FigureTriangle>) -> Self {
+        let (sin, cos) = real::sin_cos(figure.state.heading_rad);
         let (forward, right) = (DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0));
-        Self { size_m, feet: walker.state.feet_in_world, forward, right, person, triangles }
+        Self { size_m, feet: figure.state.feet_in_world, forward, right, person, triangles }
     }
 
     /// A flat convex face whose outside is away from `inside`; own axes, metres.
@@ -189,9 +189,9 @@ impl<'a> Model<'a> {
     }
 
     /// Appends the figure of a person on foot.
-    pub fn on_foot(&mut self, walker: Option<Walker>, clothes: &Clothes) {
-        if let Some(walker) = walker {
-            person_on_foot(&walker, clothes, (self.person, Region::COUNT as u32), self.triangles);
+    pub fn on_foot(&mut self, figure: Option<BodyFigure>, clothes: &Clothes) {
+        if let Some(figure) = figure {
+            person_on_foot(&figure, clothes, (self.person, Region::COUNT as u32), self.triangles);
         }
     }
 

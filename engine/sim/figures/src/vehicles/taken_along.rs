@@ -3,9 +3,9 @@
 use super::model::Model;
 use super::riders::{SEATED_M, Seat, seated};
 use crate::Clothes;
+use crate::body_figure::BodyFigure;
 use crate::frustum::{SIDES, around};
 use crate::region::Region;
-use crate::walker::Walker;
 use cosfly_frames::{DVec3, real};
 
 /// Length of a leash, metres.
@@ -60,8 +60,8 @@ pub(super) fn wheelchair(model: &mut Model<'_>, clothes: &Clothes) {
 }
 
 /// A push-chair before the person who pushes it.
-pub(super) fn push_chair(model: &mut Model<'_>, clothes: &Clothes, walker: &Walker) {
-    model.on_foot(walker.on_foot(), clothes);
+pub(super) fn push_chair(model: &mut Model<'_>, clothes: &Clothes, figure: &BodyFigure) {
+    model.on_foot(figure.on_foot(), clothes);
     let size_m = model.size_m;
     let share = |x_m: f64, z_m: f64| [x_m / size_m.x, z_m / size_m.z];
     let [handle_x, handle_z] = [0.27 * size_m.z - 0.36, 0.595 * size_m.z];
@@ -83,9 +83,9 @@ pub(super) fn push_chair(model: &mut Model<'_>, clothes: &Clothes, walker: &Walk
 }
 
 /// A dog on a leash at the right of the person, a little ahead.
-pub(super) fn dog(model: &mut Model<'_>, clothes: &Clothes, walker: &Walker) {
-    model.on_foot(walker.on_foot(), clothes);
-    let size = walker.clothes_seed.stream("dog").uniform(0.6, 1.0);
+pub(super) fn dog(model: &mut Model<'_>, clothes: &Clothes, figure: &BodyFigure) {
+    model.on_foot(figure.on_foot(), clothes);
+    let size = figure.clothes_seed.stream("dog").uniform(0.6, 1.0);
     let at = |x: f64, y: f64, z: f64| DVec3::new(0.27 + size * x, 0.27 + size * y, size * z);
     let section = |[x, z, half]: [f64; 3]| (at(x, 0.0, z), size * half);
     // Trunk, neck, head, tail.
@@ -97,9 +97,9 @@ pub(super) fn dog(model: &mut Model<'_>, clothes: &Clothes, walker: &Walker) {
     loft(model, &[[0.18, 0.46, 0.07], [0.34, 0.60, 0.05]].map(section));
     loft(model, &[[0.29, 0.62, 0.045], [0.36, 0.63, 0.062], [0.42, 0.605, 0.04], [0.52, 0.585, 0.028]].map(section));
     loft(model, &[[-0.27, 0.46, 0.026], [-0.36, 0.56, 0.02], [-0.43, 0.64, 0.012]].map(section));
-    let trot = if walker.state.speed_mps > 0.0 { 0.09 } else { 0.0 };
+    let trot = if figure.state.speed_mps > 0.0 { 0.09 } else { 0.0 };
     for (number, (x, y)) in [(0.17, -0.06), (0.17, 0.06), (-0.22, 0.06), (-0.22, -0.06)].into_iter().enumerate() {
-        let swing = trot * real::sin(2.0 * walker.gait_phase_rad + if number % 2 == 0 { 0.0 } else { real::PI });
+        let swing = trot * real::sin(2.0 * figure.gait_phase_rad + if number % 2 == 0 { 0.0 } else { real::PI });
         model.bar(Region::Paint, at(x, y, 0.42), at(x + swing, y, 0.0), 0.05 * size);
     }
     for side in [-1.0, 1.0] {

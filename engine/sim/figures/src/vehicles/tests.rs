@@ -4,10 +4,10 @@ use super::cars;
 use super::model::Model;
 use super::shapes::{CARS, VANS};
 use crate::Clothes;
+use crate::body_figure::BodyFigure;
 use crate::body_shape::BodyShape;
 use crate::region::Region;
-use crate::walker::Walker;
-use crate::{figure, walker_triangles};
+use crate::{add_figure, figure_triangles};
 use cosfly_domain::{BodyKind, BodyPlan, SemanticLabel};
 use cosfly_frames::{DVec3, Seed, TargetState};
 
@@ -29,9 +29,9 @@ const KINDS: [(BodyKind, [f64; 3], SemanticLabel); 9] = [
     (BodyKind::Drone, [0.6, 0.6, 0.2], SemanticLabel::Dynamic),
 ];
 
-fn vehicle(kind: BodyKind, size_m: DVec3, number: u64) -> Walker {
+fn vehicle(kind: BodyKind, size_m: DVec3, number: u64) -> BodyFigure {
     let turn = 0.77 * number as f64;
-    Walker {
+    BodyFigure {
         state: TargetState { feet_in_world: DVec3::new(14.0, -3.0, 1.5), heading_rad: turn, speed_mps: 5.0 },
         height_m: size_m.z,
         radius_m: 0.5 * size_m.y,
@@ -47,12 +47,12 @@ fn models_fill_their_boxes_and_stay_inside() {
         for number in 0..40 {
             let mut stream = Seed([1; 32]).child("size", number).stream("size");
             let size_m = DVec3::from_array(size_m.map(|side| side * stream.uniform(0.8, 1.25)));
-            let walker = vehicle(kind, size_m, number);
-            let plan = BodyPlan { source: String::new(), kind, size_m, looks: walker.clothes_seed, group: None };
-            let shape = plan.box_at(&walker.state);
+            let figure = vehicle(kind, size_m, number);
+            let plan = BodyPlan { source: String::new(), kind, size_m, looks: figure.clothes_seed, group: None };
+            let shape = plan.box_at(&figure.state);
             let (sin, cos) = cosfly_frames::real::sin_cos(shape.yaw_rad);
             let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-            for corner in walker_triangles(&walker).into_iter().flatten() {
+            for corner in figure_triangles(&figure).into_iter().flatten() {
                 let away = corner - shape.center_in_world;
                 let own = DVec3::new(cos * away.x + sin * away.y, cos * away.y - sin * away.x, away.z);
                 (low, high) = (low.min(own), high.max(own));
@@ -68,10 +68,10 @@ fn people_stay_in_the_box_with_what_they_take_along_and_keep_their_label() {
     for (kind, [length_m, width_m]) in [(BodyKind::PushChair, [1.5, 0.7]), (BodyKind::DogWalker, [1.6, 0.92])] {
         for number in 0..60 {
             let size_m = DVec3::new(length_m, width_m, 1.5 + 0.007 * number as f64);
-            let mut walker = vehicle(kind, size_m, number);
-            (walker.state.heading_rad, walker.state.feet_in_world) = (0.0, DVec3::ZERO);
+            let mut figure = vehicle(kind, size_m, number);
+            (figure.state.heading_rad, figure.state.feet_in_world) = (0.0, DVec3::ZERO);
             let mut triangles = vec![];
-            figure(&walker, &Clothes::draw(&walker.clothes_seed), 0, &mut triangles);
+            add_figure(&figure, &Clothes::draw(&figure.clothes_seed), 0, &mut triangles);
             for triangle in &triangles {
                 for corner in triangle.corners_in_world {
                     let inside = corner.x.abs() <= 0.5 * length_m && corner.y.abs() <= 0.5 * width_m;
@@ -79,13 +79,13 @@ fn people_stay_in_the_box_with_what_they_take_along_and_keep_their_label() {
                 }
             }
             let labels: std::collections::BTreeSet<_> =
-                triangles.iter().map(|it| walker.body.label(it.region)).collect();
+                triangles.iter().map(|it| figure.body.label(it.region)).collect();
             assert_eq!(labels.into_iter().collect::<Vec<_>>(), [SemanticLabel::Pedestrian, SemanticLabel::Dynamic]);
             let leash = triangles.iter().filter(|it| it.region == Region::Trim).flat_map(|it| it.corners_in_world);
             let lowest_m = leash.map(|corner| corner.z).fold(f64::INFINITY, f64::min);
             let hangs = (0.05..0.42).contains(&lowest_m);
             assert!(hangs || kind == BodyKind::PushChair, "{number}: the leash ends {lowest_m} m above the ground");
-            let points = crate::key_points(&walker).expect("a person");
+            let points = crate::key_points(&figure).expect("a person");
             assert!(points.iter().all(|point| point.x < 0.2 && point.z > 0.0 && point.z < size_m.z));
         }
     }
@@ -95,15 +95,15 @@ fn people_stay_in_the_box_with_what_they_take_along_and_keep_their_label() {
 fn seated_people_stay_in_their_box_stand_on_the_ground_and_keep_their_label() {
     for number in 0..40 {
         let size_m = DVec3::new(1.05, 0.65, 1.25 + 0.00375 * number as f64);
-        let mut walker = vehicle(BodyKind::Sitter, size_m, number);
-        (walker.state.heading_rad, walker.state.feet_in_world) = (0.0, DVec3::ZERO);
+        let mut figure = vehicle(BodyKind::Sitter, size_m, number);
+        (figure.state.heading_rad, figure.state.feet_in_world) = (0.0, DVec3::ZERO);
         let mut triangles = vec![];
-        figure(&walker, &Clothes::draw(&walker.clothes_seed), 0, &mut triangles);
+        add_figure(&figure, &Clothes::draw(&figure.clothes_seed), 0, &mut triangles);
         let corners: Vec<DVec3> = triangles.iter().flat_map(|it| it.corners_in_world).collect();
         let inside =
             |it: &DVec3| it.x.abs() <= 0.525 && it.y.abs() <= 0.325 && (-0.02..size_m.z + 0.01).contains(&it.z);
         assert_eq!(corners.iter().find(|it| !inside(it)), None, "{number}");
-        let labels: std::collections::BTreeSet<_> = triangles.iter().map(|it| walker.body.label(it.region)).collect();
+        let labels: std::collections::BTreeSet<_> = triangles.iter().map(|it| figure.body.label(it.region)).collect();
         assert_eq!(labels.into_iter().collect::<Vec<_>>(), [SemanticLabel::Pedestrian, SemanticLabel::Dynamic]);
         let people = triangles.iter().filter(|it| it.region.is_of_people()).flat_map(|it| it.corners_in_world);
         let (low, high) =
@@ -115,10 +115,10 @@ fn seated_people_stay_in_their_box_stand_on_the_ground_and_keep_their_label() {
 #[test]
 fn faces_look_outward_and_have_the_labels_of_their_kind() {
     for (kind, size_m, label) in KINDS {
-        let walker = vehicle(kind, DVec3::from_array(size_m), 3);
+        let figure = vehicle(kind, DVec3::from_array(size_m), 3);
         let mut triangles = vec![];
-        figure(&walker, &Clothes::draw(&walker.clothes_seed), 0, &mut triangles);
-        let labels: std::collections::BTreeSet<_> = triangles.iter().map(|it| walker.body.label(it.region)).collect();
+        add_figure(&figure, &Clothes::draw(&figure.clothes_seed), 0, &mut triangles);
+        let labels: std::collections::BTreeSet<_> = triangles.iter().map(|it| figure.body.label(it.region)).collect();
         let is_ridden =
             matches!(kind, BodyKind::Bicycle | BodyKind::EScooter | BodyKind::Motorcycle | BodyKind::Wheelchair);
         assert!(labels.contains(&label), "{kind:?}");
@@ -132,7 +132,7 @@ fn faces_look_outward_and_have_the_labels_of_their_kind() {
         }
         // Windows of cabins look away from the middle; the lens of a drone is a body of its own.
         if !is_ridden && kind != BodyKind::Drone {
-            let middle = walker.state.feet_in_world + DVec3::Z * (0.5 * size_m[2]);
+            let middle = figure.state.feet_in_world + DVec3::Z * (0.5 * size_m[2]);
             let wrong = triangles.iter().filter(|it| {
                 it.region == Region::Glass && it.normal_in_world.dot(it.corners_in_world[0] - middle) <= 0.0
             });
@@ -148,11 +148,11 @@ fn every_shape_stays_in_its_box_is_round_and_has_few_triangles() {
         let share: f64 = shape.sections.windows(2).map(|pair| f64::from(u8::from(pair[0].x < pair[1].x))).sum();
         assert_eq!(share as usize + 1, shape.sections.len(), "{number}: from tail to nose");
         for size_m in SIZES_M.map(DVec3::from_array) {
-            let mut walker = vehicle(BodyKind::Car, size_m, 0);
-            walker.state.feet_in_world = DVec3::ZERO;
+            let mut figure = vehicle(BodyKind::Car, size_m, 0);
+            figure.state.feet_in_world = DVec3::ZERO;
             let mut triangles = vec![];
-            let mut looks = walker.clothes_seed.stream("shape");
-            cars::car(&mut Model::new(&walker, size_m, 0, &mut triangles), shape, 1.3, &mut looks);
+            let mut looks = figure.clothes_seed.stream("shape");
+            cars::car(&mut Model::new(&figure, size_m, 0, &mut triangles), shape, 1.3, &mut looks);
             assert!(triangles.len() <= MOST_TRIANGLES, "{number}: {} triangles", triangles.len());
             for triangle in &triangles {
                 for corner in triangle.corners_in_world {
@@ -236,7 +236,7 @@ fn boxes_of_lorries_have_doors_and_tanks_have_none() {
     for number in 0..60 {
         let lorry = vehicle(BodyKind::Truck, DVec3::new(8.5, 2.5, 3.4), number);
         let mut triangles = vec![];
-        figure(&lorry, &Clothes::draw(&lorry.clothes_seed), 0, &mut triangles);
+        add_figure(&lorry, &Clothes::draw(&lorry.clothes_seed), 0, &mut triangles);
         // A box has six sides.
         let is_box = triangles.iter().filter(|it| it.region == Region::Cargo).count() == 12;
         assert_eq!(crate::Fittings::of(&lorry).has_rear_doors, is_box, "{number}");
@@ -248,6 +248,6 @@ fn boxes_of_lorries_have_doors_and_tanks_have_none() {
 #[test]
 fn a_size_that_is_none_is_not_drawn() {
     for size_m in [[4.0, 0.0, 1.5], [f64::NAN, 2.0, 1.5], [400.0, 2.0, 1.5]] {
-        assert!(walker_triangles(&vehicle(BodyKind::Car, DVec3::from_array(size_m), 1)).is_empty());
+        assert!(figure_triangles(&vehicle(BodyKind::Car, DVec3::from_array(size_m), 1)).is_empty());
     }
 }

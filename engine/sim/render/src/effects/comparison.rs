@@ -7,7 +7,7 @@ use crate::scene::Scene;
 use crate::setup::FrameSetup;
 use cosfly_domain::channels::FlowTo;
 use cosfly_domain::{RollingShutter, Weather};
-use cosfly_figures::Bystander;
+use cosfly_figures::FigureInPicture;
 use std::ops::Range;
 
 /// What the frames beside one show; its buffers.
@@ -15,7 +15,7 @@ use std::ops::Range;
 pub(super) struct Comparison {
     scout: Option<Renderer>,
     frames: [(OtherFrame, bool); 2],
-    bystanders: Vec<Bystander>,
+    bystanders: Vec<FigureInPicture>,
 }
 
 const BOTH: [FlowTo; 2] = [FlowTo::Previous, FlowTo::Next];

@@ -2,7 +2,7 @@
 
 use crate::setup::FrameSetup;
 use cosfly_domain::Weather;
-use cosfly_figures::{Bystander, Walker};
+use cosfly_figures::{BodyFigure, FigureInPicture};
 use cosfly_frames::{Pose, Seed};
 
 /// Camera and target at a moment.
@@ -11,7 +11,7 @@ pub struct Moment {
     /// The camera's pose.
     pub pose: Pose,
     /// The followed target, if there is one.
-    pub target: Option<Walker>,
+    pub target: Option<BodyFigure>,
 }
 
 /// Another frame of the film.
@@ -20,7 +20,7 @@ pub struct FrameBeside<'a> {
     /// The moment this many seconds after the middle of its shutter.
     pub moment: &'a dyn Fn(f64) -> Moment,
     /// Adds everybody else at that time to an empty list.
-    pub others: &'a dyn Fn(f64, &mut Vec<Bystander>),
+    pub others: &'a dyn Fn(f64, &mut Vec<FigureInPicture>),
 }
 
 /// The frames beside a frame; the first one and the last one of a film lack one.
@@ -39,7 +39,7 @@ pub struct Shot<'a> {
     /// The moment this many seconds after the middle of the shutter (before it, when negative).
     pub moment: &'a dyn Fn(f64) -> Moment,
     /// Adds everybody else at that time to an empty list.
-    pub others: &'a dyn Fn(f64, &mut Vec<Bystander>),
+    pub others: &'a dyn Fn(f64, &mut Vec<FigureInPicture>),
     /// The frames beside this one, for channels that compare them.
     pub neighbours: Neighbours<'a>,
     /// Seed of the sensor's noise; another one per frame.
@@ -47,7 +47,7 @@ pub struct Shot<'a> {
 }
 
 /// The frame at a moment of a shot; `bystanders` is room for who is about.
-pub(super) fn setup<'a>(shot: &Shot<'a>, offset_s: f64, bystanders: &'a mut Vec<Bystander>) -> FrameSetup<'a> {
+pub(super) fn setup<'a>(shot: &Shot<'a>, offset_s: f64, bystanders: &'a mut Vec<FigureInPicture>) -> FrameSetup<'a> {
     setup_at(shot.weather, &FrameBeside { moment: shot.moment, others: shot.others }, offset_s, bystanders)
 }
 
@@ -56,7 +56,7 @@ pub(super) fn setup_at<'a>(
     weather: &'a Weather,
     frame: &FrameBeside<'_>,
     offset_s: f64,
-    bystanders: &'a mut Vec<Bystander>,
+    bystanders: &'a mut Vec<FigureInPicture>,
 ) -> FrameSetup<'a> {
     let Moment { pose, target } = (frame.moment)(offset_s);
     bystanders.clear();

@@ -10,7 +10,7 @@ use crate::people::Person;
 use crate::setup::FrameSetup;
 use cosfly_domain::channels::{ChannelSource, FlowTo};
 use cosfly_domain::{Camera, Lens, TARGET_INSTANCE};
-use cosfly_figures::{Bystander, FigureTriangle, figure};
+use cosfly_figures::{FigureInPicture, FigureTriangle, add_figure};
 use cosfly_frames::{DMat3, DVec3, real};
 use cosfly_raster::eye::Eye;
 use cosfly_raster::visibility::{NEAR_M, NO_FACE, PlaneOnScreen, Screen};
@@ -37,7 +37,7 @@ pub(crate) struct OtherFrame {
 struct OtherStrip {
     rows: Range<usize>,
     eye: Eye,
-    bodies: Vec<Bystander>,
+    bodies: Vec<FigureInPicture>,
 }
 
 /// The finished picture and its lens.
@@ -108,7 +108,7 @@ impl Renderer {
             }
             other.nearest.push(*number);
         }
-        let target = setup.target.map(|walker| Bystander { walker, instance: TARGET_INSTANCE });
+        let target = setup.target.map(|figure| FigureInPicture { figure, instance: TARGET_INSTANCE });
         let bodies = target.into_iter().chain(setup.others.iter().copied()).collect();
         other.strips.push(OtherStrip { rows, eye: Eye::new(&setup.pose), bodies });
     }
@@ -270,10 +270,10 @@ impl OtherBody {
         if person.town_label.is_some() || !person.is_seen {
             return None;
         }
-        let there = strip.bodies.iter().find(|body| body.instance == person.instance)?.walker;
-        let here = &person.walker;
+        let there = strip.bodies.iter().find(|body| body.instance == person.instance)?.figure;
+        let here = &person.figure;
         let mut triangles = vec![];
-        figure(&there, &person.clothes, 0, &mut triangles);
+        add_figure(&there, &person.clothes, 0, &mut triangles);
         let turn = turn_about_up(there.state.heading_rad - here.state.heading_rad);
         let shift_m = there.state.feet_in_world - turn * here.state.feet_in_world;
         there.has_body().then(|| Self { rigid: Motion::in_world(eye, &strip.eye, turn, shift_m), figure: triangles })

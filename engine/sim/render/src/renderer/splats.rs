@@ -8,7 +8,7 @@ use crate::scene::Scene;
 use crate::scene_splats::BEFORE_BODIES_M;
 use crate::setup::FrameSetup;
 use cosfly_domain::SemanticLabel;
-use cosfly_figures::Walker;
+use cosfly_figures::BodyFigure;
 use cosfly_frames::Pose;
 use cosfly_materials::scan_light::lit_shares;
 use cosfly_raster::eye::Eye;
@@ -87,7 +87,7 @@ impl Renderer {
             Box::new(bare)
         });
         // A target without extent is not drawn; the town's shadows lie where they lie with it.
-        let target = setup.target.map(|target| Walker { height_m: 0.0, ..target });
+        let target = setup.target.map(|target| BodyFigure { height_m: 0.0, ..target });
         bare.shade_faces(scene, &FrameSetup { target, others: &[], ..*setup });
         lit_shares(&bare.images.rgb, &self.images.rgb, &mut self.composer.lit);
         self.bare = Some(bare);

@@ -5,7 +5,7 @@
 
 use super::shadow_frame::Frame;
 use super::sunlight::FIGURE_SIDE;
-use cosfly_figures::{FigureParts, MOST_PARTS, Ring, SIDES, Walker};
+use cosfly_figures::{BodyFigure, FigureParts, MOST_PARTS, Ring, SIDES};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3, real, simd_kernel};
 use cosfly_materials::pattern::{floor_int, least, most, share};
@@ -34,11 +34,11 @@ const NO_RING: SeenRing = SeenRing { corners: [[0.0; 2]; CORNERS], height_m: 0.0
 pub(super) fn draw_person(
     level: Level,
     lattice: &Frame,
-    (walker, parts): (&Walker, &FigureParts),
+    (figure, parts): (&BodyFigure, &FigureParts),
     side: usize,
     heights: &mut Heights,
 ) -> Option<Frame> {
-    let stance = Stance::new(lattice, walker, parts);
+    let stance = Stance::new(lattice, figure, parts);
     let mut rings = [NO_RING; 2 * MOST_PARTS];
     let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
     let mut count = 0;
@@ -67,7 +67,7 @@ pub(super) fn draw_person(
     Some(frame)
 }
 
-/// A walker's feet and axes over the sheared ground, metres; the axes are as long as the body is high.
+/// A person's feet and axes over the sheared ground, metres; the axes are as long as the body is high.
 struct Stance {
     feet: DVec2,
     axes: [DVec2; 3],
@@ -77,15 +77,15 @@ struct Stance {
 }
 
 impl Stance {
-    fn new(lattice: &Frame, walker: &Walker, parts: &FigureParts) -> Self {
-        let (sin, cos) = real::sin_cos(walker.state.heading_rad);
-        let sunk = walker.state.feet_in_world - DVec3::Z * (parts.lowest() * walker.height_m);
+    fn new(lattice: &Frame, figure: &BodyFigure, parts: &FigureParts) -> Self {
+        let (sin, cos) = real::sin_cos(figure.state.heading_rad);
+        let sunk = figure.state.feet_in_world - DVec3::Z * (parts.lowest() * figure.height_m);
         let axes = [DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0), DVec3::Z];
         Self {
             feet: lattice.sheared(sunk),
-            axes: axes.map(|axis| walker.height_m * lattice.turned(axis)),
+            axes: axes.map(|axis| figure.height_m * lattice.turned(axis)),
             foot_height_m: lattice.height(sunk),
-            height_m: walker.height_m,
+            height_m: figure.height_m,
             around: core::array::from_fn(|k| real::sin_cos(real::TAU * k as f64 / SIDES as f64)),
         }
     }
@@ -211,7 +211,7 @@ fn draw_triangle(corners: [[f32; 2]; 3], turned: f32, base_m: f32, rise_m: f32, 
 mod tests {
     use super::*;
     use crate::shade::sun_tiles::Sun;
-    use cosfly_figures::{BodyShape, Clothes, walker_triangles};
+    use cosfly_figures::{BodyShape, Clothes, figure_triangles};
     use cosfly_frames::{Seed, TargetState};
     use cosfly_materials::vector::Vec3;
 
@@ -228,7 +228,7 @@ mod tests {
     #[test]
     fn a_shadow_is_as_high_as_the_highest_triangle_of_the_figure() {
         for (number, side) in [24, 48, FIGURE_SIDE].into_iter().enumerate() {
-            let walker = Walker {
+            let figure = BodyFigure {
                 state: TargetState { feet_in_world: DVec3::new(40.0, -9.0, 2.0), heading_rad: 0.8, speed_mps: 1.5 },
                 height_m: 1.8,
                 radius_m: 0.3,
@@ -236,12 +236,12 @@ mod tests {
                 gait_phase_rad: 0.9,
                 body: BodyShape::default(),
             };
-            let clothes = Clothes::draw(&walker.clothes_seed);
+            let clothes = Clothes::draw(&figure.clothes_seed);
             let lattice = Sun::new(Vec3::new(0.5, -0.4, 0.6).unit(), 0.0).lattice(0);
             let mut heights = [0.0; HEIGHTS];
-            let parts = FigureParts::of(&walker, &clothes);
-            let frame = draw_person(Level::best(), &lattice, (&walker, &parts), side, &mut heights).expect("a shadow");
-            let triangles = walker_triangles(&walker);
+            let parts = FigureParts::of(&figure, &clothes);
+            let frame = draw_person(Level::best(), &lattice, (&figure, &parts), side, &mut heights).expect("a shadow");
+            let triangles = figure_triangles(&figure);
             let mut wrong = 0;
             for (row, column) in (0..side).flat_map(|row| (0..side).map(move |column| (row, column))) {
                 let at = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);

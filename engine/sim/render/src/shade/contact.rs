@@ -1,6 +1,6 @@
 //! Less sky where somebody stands on the ground, and below vehicles.
 
-use cosfly_figures::{BodyShape, Walker};
+use cosfly_figures::{BodyFigure, BodyShape};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{real, simd_kernel};
 use cosfly_materials::lanes::{Block, Shared, WIDE, get, groups};
@@ -14,15 +14,15 @@ pub(super) const FOUR_SIZES: f32 = 2.0;
 const PER_DEEP_M: f32 = 3.0;
 
 /// Darkens ground below somebody and around.
-pub(super) fn contact(level: Level, shared: &[Shared], blocks: &mut [Block], walker: &Walker) {
-    let feet = walker.state.feet_in_world.into();
-    let footprint = match walker.body {
+pub(super) fn contact(level: Level, shared: &[Shared], blocks: &mut [Block], figure: &BodyFigure) {
+    let feet = figure.state.feet_in_world.into();
+    let footprint = match figure.body {
         BodyShape::Person { .. } => {
-            let reach_m = 3.0 * walker.radius_m.clamp(0.1, 2.0) as f32;
+            let reach_m = 3.0 * figure.radius_m.clamp(0.1, 2.0) as f32;
             Footprint { feet, along: [1.0, 0.0], half_m: [0.0; 2], reach_m, taken: 0.55, below: 0.0 }
         }
         BodyShape::Vehicle { size_m, .. } => {
-            let (sin, cos) = real::sin_cos(walker.state.heading_rad);
+            let (sin, cos) = real::sin_cos(figure.state.heading_rad);
             // Two-wheelers touch the ground along a line.
             let width = if size_m.y < 1.0 { 0.15 } else { 1.0 };
             let half_m = [0.5 * size_m.x as f32, 0.5 * width * size_m.y as f32];
@@ -93,7 +93,7 @@ mod tests {
 
     /// Openness of level ground at places so far ahead and to the right of a car that drives along x, in fours of a row.
     fn openness(places: &[[f64; 2]; FOUR]) -> [f32; FOUR] {
-        let car = Walker {
+        let car = BodyFigure {
             state: TargetState { feet_in_world: DVec3::new(30.0, -8.0, 1.0), heading_rad: 0.0, speed_mps: 0.0 },
             height_m: 1.5,
             radius_m: 1.0,

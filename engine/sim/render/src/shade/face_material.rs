@@ -30,8 +30,8 @@ pub(super) fn material_of(setting: &Setting, seen: &Seen<'_>, face: u32) -> (Mat
             let Some(person) = person else { return (Material::Sky, flat) };
             let [red, green, blue] = person.colours[look.region as usize];
             let sheet = (look.region, Vec3::new(red, green, blue));
-            let place = (person.walker.state.feet_in_world, person.side_in_world);
-            let night = if person.walker.is_parked() { 0.0 } else { setting.light.night };
+            let place = (person.figure.state.feet_in_world, person.side_in_world);
+            let night = if person.figure.is_parked() { 0.0 } else { setting.light.night };
             let coach = Coach::new(sheet, &person.fittings, place, night, &setting.view);
             (Material::Coach(coach), flat)
         }

@@ -1,7 +1,7 @@
 //! Lamps of vehicles at night: white light on what is ahead, red light on the ground behind.
 
 use super::contact::FOUR_SIZES;
-use cosfly_figures::{BodyShape, Walker};
+use cosfly_figures::{BodyFigure, BodyShape};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, real, simd_kernel};
 use cosfly_materials::lanes::{Block, Shared, WIDE, get, groups, set};
@@ -30,9 +30,9 @@ struct Lamps {
 }
 
 impl Lamps {
-    fn of(walker: &Walker) -> Option<Self> {
-        let BodyShape::Vehicle { kind, .. } = walker.body else { return None };
-        if walker.is_parked() {
+    fn of(figure: &BodyFigure) -> Option<Self> {
+        let BodyShape::Vehicle { kind, .. } = figure.body else { return None };
+        if figure.is_parked() {
             return None;
         }
         kind.row().lamps.map(|[strength, scale]| Self { strength, scale })
@@ -40,20 +40,20 @@ impl Lamps {
 }
 
 /// How far the lamps of somebody light the ground beyond the body's upright box: towards smaller and larger x and y, metres.
-pub(crate) fn reach_m(walker: &Walker) -> [DVec2; 2] {
-    let Some(lamps) = Lamps::of(walker) else { return [DVec2::ZERO; 2] };
-    let (sin, cos) = real::sin_cos(walker.state.heading_rad);
+pub(crate) fn reach_m(figure: &BodyFigure) -> [DVec2; 2] {
+    let Some(lamps) = Lamps::of(figure) else { return [DVec2::ZERO; 2] };
+    let (sin, cos) = real::sin_cos(figure.state.heading_rad);
     let ahead = DVec2::new(cos, sin) * f64::from(AHEAD_M * lamps.scale);
     let aside_m = f64::from(HALF_WIDTH_M + WIDER * AHEAD_M).max(f64::from(BEHIND_M));
     [(-ahead).max(DVec2::ZERO) + aside_m, ahead.max(DVec2::ZERO) + aside_m]
 }
 
 /// Adds the light of somebody's lamps to what flat surfaces send; whether there are lamps.
-pub(super) fn shine(level: Level, shared: &[Shared], blocks: &mut [Block], walker: &Walker, light: &Light) -> bool {
-    let (Some(lamps), BodyShape::Vehicle { size_m, .. }) = (Lamps::of(walker), &walker.body) else { return false };
-    let (sin, cos) = real::sin_cos(walker.state.heading_rad);
+pub(super) fn shine(level: Level, shared: &[Shared], blocks: &mut [Block], figure: &BodyFigure, light: &Light) -> bool {
+    let (Some(lamps), BodyShape::Vehicle { size_m, .. }) = (Lamps::of(figure), &figure.body) else { return false };
+    let (sin, cos) = real::sin_cos(figure.state.heading_rad);
     let beam = Beam {
-        feet: walker.state.feet_in_world.into(),
+        feet: figure.state.feet_in_world.into(),
         along: [cos as f32, sin as f32],
         half_length_m: 0.5 * size_m.x as f32,
         per_scale: 1.0 / lamps.scale,
@@ -137,8 +137,8 @@ mod tests {
     use cosfly_frames::{DVec3, Seed, TargetState};
     use cosfly_materials::lanes::FOUR;
 
-    fn car(heading_rad: f64, kind: BodyKind) -> Walker {
-        Walker {
+    fn car(heading_rad: f64, kind: BodyKind) -> BodyFigure {
+        BodyFigure {
             state: TargetState { feet_in_world: DVec3::new(30.0, -8.0, 1.0), heading_rad, speed_mps: 5.0 },
             height_m: 1.5,
             radius_m: 1.0,
@@ -149,18 +149,18 @@ mod tests {
     }
 
     /// Light that level ground gets at places so far ahead and aside of the feet.
-    fn light_at(walker: &Walker, weather: &str, places: &[[f64; 2]]) -> Vec<Vec3> {
+    fn light_at(figure: &BodyFigure, weather: &str, places: &[[f64; 2]]) -> Vec<Vec3> {
         let light = Light::new(&cosfly_materials::presets::preset(weather).expect("a preset"));
-        let (sin, cos) = real::sin_cos(walker.state.heading_rad);
+        let (sin, cos) = real::sin_cos(figure.state.heading_rad);
         let lit = |&[ahead, aside]: &[f64; 2]| {
             let (mut shared, mut four) = (Shared::EMPTY, [const { Block::EMPTY }; FOUR]);
             let place =
-                walker.state.feet_in_world + DVec3::new(ahead * cos - aside * sin, ahead * sin + aside * cos, 0.0);
+                figure.state.feet_in_world + DVec3::new(ahead * cos - aside * sin, ahead * sin + aside * cos, 0.0);
             set(&mut shared.middle, 0, place.into());
             set(&mut four[0].world, 0, place.into());
             set(&mut four[0].normal, 0, Vec3::new(0.0, 0.0, 1.0));
             set(&mut four[0].albedo, 0, Vec3::splat(1.0));
-            shine(Level::best(), &[shared], &mut four, walker, &light);
+            shine(Level::best(), &[shared], &mut four, figure, &light);
             get(&four[0].emission, 0)
         };
         places.iter().map(lit).collect()
@@ -185,9 +185,9 @@ mod tests {
             let mut parked = car(heading_rad, BodyKind::Car);
             parked.state.speed_mps = 0.0;
             let [by_day, drone] = [BodyKind::Car, BodyKind::Drone].map(|kind| car(heading_rad, kind));
-            for (walker, weather) in [(by_day, "ClearNoon"), (drone, "ClearNight"), (parked, "ClearNight")] {
-                let at = light_at(&walker, weather, &places);
-                assert!(at.iter().all(|lit| *lit == Vec3::splat(0.0)), "{:?} {weather}", walker.body);
+            for (figure, weather) in [(by_day, "ClearNoon"), (drone, "ClearNight"), (parked, "ClearNight")] {
+                let at = light_at(&figure, weather, &places);
+                assert!(at.iter().all(|lit| *lit == Vec3::splat(0.0)), "{:?} {weather}", figure.body);
             }
         }
     }
@@ -195,15 +195,15 @@ mod tests {
     #[test]
     fn lamps_light_nothing_beyond_their_reach() {
         for step in 0..12 {
-            let walker = car(0.55 * f64::from(step), BodyKind::Truck);
-            let (low, high) = walker.bounds_in_world();
-            let [before, beyond] = reach_m(&walker);
+            let figure = car(0.55 * f64::from(step), BodyKind::Truck);
+            let (low, high) = figure.bounds_in_world();
+            let [before, beyond] = reach_m(&figure);
             let (low, high) = (low.truncate() - before, high.truncate() + beyond);
-            let (sin, cos) = real::sin_cos(walker.state.heading_rad);
+            let (sin, cos) = real::sin_cos(figure.state.heading_rad);
             let places: Vec<[f64; 2]> =
                 (0..60 * 30).map(|k| [f64::from(k % 60) - 30.0, f64::from(k / 60) - 15.0]).collect();
-            for ([ahead, aside], lit) in places.iter().zip(light_at(&walker, "ClearNight", &places)) {
-                let place = walker.state.feet_in_world.truncate()
+            for ([ahead, aside], lit) in places.iter().zip(light_at(&figure, "ClearNight", &places)) {
+                let place = figure.state.feet_in_world.truncate()
                     + DVec2::new(ahead * cos - aside * sin, ahead * sin + aside * cos);
                 let is_within = place.cmpge(low).all() && place.cmple(high).all();
                 assert!(is_within || lit == Vec3::splat(0.0), "{ahead} {aside}: {lit:?}");

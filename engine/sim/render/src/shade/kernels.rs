@@ -71,7 +71,7 @@ pub(super) fn run_kernels(
     let is_shaded = matches!(material, Material::Ground(_) | Material::Scan) && !near.is_empty();
     if is_shaded {
         blocks.iter_mut().for_each(|block| block.openness = [1.0; WIDE]);
-        near.iter().for_each(|one| contact(level, shared, blocks, &seen.people.members[*one as usize].walker));
+        near.iter().for_each(|one| contact(level, shared, blocks, &seen.people.members[*one as usize].figure));
     }
     let is_bent = material.is_bent();
     if let Material::Tiles(_) = material {
@@ -136,7 +136,7 @@ pub(super) fn run_kernels(
     }
     let mut glows = answers.glows && light.night > 0.0;
     if light.night > 0.0 {
-        let walkers = near.iter().map(|one| &seen.people.members[*one as usize].walker);
+        let walkers = near.iter().map(|one| &seen.people.members[*one as usize].figure);
         walkers.for_each(|walker| glows |= shine(level, shared, blocks, walker, light));
     }
     let kinds = Kinds { glows, shiny: is_shiny, shaded: is_shaded };

@@ -76,7 +76,7 @@ impl Shadows {
             if self.figures.len() <= position {
                 self.figures.push(FigureShadow { map: fixed_size(vec![]), side: 0, rows: None });
             }
-            let size_px = match person.walker.body {
+            let size_px = match person.figure.body {
                 _ if person.height_px < LEAST_FIGURE_PX => 0.0,
                 BodyShape::Person { .. } => person.height_px,
                 BodyShape::Vehicle { size_m, .. } => person.height_px * size_m.max_element() / size_m.z,
@@ -84,16 +84,16 @@ impl Shadows {
             let is_target = person.instance == TARGET_INSTANCE;
             let size_px = if is_target { size_px.max(LEAST_TARGET_PX) } else { size_px };
             let side = SIDES_BY_SIZE.iter().find(|(least_px, _)| size_px >= *least_px).map_or(0, |(_, side)| *side);
-            let is_person = person.walker.body.is_person();
+            let is_person = person.figure.body.is_person();
             let drawn = match side {
                 0 => None,
                 _ if is_person => {
-                    let parts = FigureParts::of(&person.walker, &person.clothes);
-                    draw_person(level, &lattice, (&person.walker, &parts), side, &mut self.heights)
+                    let parts = FigureParts::of(&person.figure, &person.clothes);
+                    draw_person(level, &lattice, (&person.figure, &parts), side, &mut self.heights)
                 }
                 _ => {
                     let triangles = &people.triangles[person.triangles.clone()];
-                    let frame = figure_frame(&lattice, person.walker.state.heading_rad, triangles, side);
+                    let frame = figure_frame(&lattice, person.figure.state.heading_rad, triangles, side);
                     frame.inspect(|frame| self.draw_figure(frame, to_sun, triangles, side))
                 }
             };
@@ -162,13 +162,13 @@ fn lowest_place_m(scene: &Scene) -> f64 {
 mod tests {
     use super::*;
     use cosfly_domain::BodyKind;
-    use cosfly_figures::{Clothes, Walker, figure};
+    use cosfly_figures::{BodyFigure, Clothes, add_figure};
     use cosfly_frames::{Seed, TargetState};
 
     #[test]
     fn maps_of_vehicles_lie_along_them_under_a_high_sun_and_along_the_light_of_a_low_one() {
         let heading_rad = 0.7;
-        let car = Walker {
+        let car = BodyFigure {
             state: TargetState { feet_in_world: DVec3::new(30.0, -8.0, 1.0), heading_rad, speed_mps: 0.0 },
             height_m: 1.5,
             radius_m: 1.0,
@@ -177,7 +177,7 @@ mod tests {
             body: BodyShape::Vehicle { kind: BodyKind::Car, size_m: DVec3::new(4.4, 1.8, 1.5) },
         };
         let mut triangles = vec![];
-        figure(&car, &Clothes::draw(&car.clothes_seed), 0, &mut triangles);
+        add_figure(&car, &Clothes::draw(&car.clothes_seed), 0, &mut triangles);
         let (sin, cos) = real::sin_cos(heading_rad);
         for (to_sun, is_along) in [(Vec3::new(0.1, 0.2, 1.0), true), (Vec3::new(1.0, 0.0, 0.1), false)] {
             let lattice = Sun::new(to_sun.unit(), 0.0).lattice(0);

@@ -1,7 +1,7 @@
 //! Invented vehicles for tests and benches.
 
 use cosfly_domain::BodyKind;
-use cosfly_figures::{BodyShape, Bystander, Walker};
+use cosfly_figures::{BodyFigure, BodyShape, FigureInPicture};
 use cosfly_frames::{DVec3, Seed, TargetState};
 
 /// Kinds of vehicles with their sizes, metres; most are cars.
@@ -17,9 +17,9 @@ const VEHICLES: [(BodyKind, [f64; 3]); 8] = [
 ];
 
 /// A vehicle at a place; its number draws kind and looks.
-pub fn vehicle(number: u32, place: DVec3, heading_rad: f64) -> Bystander {
+pub fn vehicle(number: u32, place: DVec3, heading_rad: f64) -> FigureInPicture {
     let (kind, size_m) = VEHICLES[number as usize % VEHICLES.len()];
-    let walker = Walker {
+    let figure = BodyFigure {
         state: TargetState { feet_in_world: place, heading_rad, speed_mps: 6.0 },
         height_m: size_m[2],
         radius_m: 0.5 * size_m[1],
@@ -27,5 +27,5 @@ pub fn vehicle(number: u32, place: DVec3, heading_rad: f64) -> Bystander {
         gait_phase_rad: 0.7 * f64::from(number),
         body: BodyShape::of(kind, DVec3::from_array(size_m)),
     };
-    Bystander { walker, instance: 60_000 + number }
+    FigureInPicture { figure, instance: 60_000 + number }
 }

@@ -1,19 +1,19 @@
 //! People and vehicles within a short part of a sweep: figures that move evenly.
 
 use super::scene::{Echo, LidarScene, LidarTriangle};
-use cosfly_figures::{Bystander, Clothes, figure};
+use cosfly_figures::{Clothes, FigureInPicture, add_figure};
 use cosfly_frames::DVec3;
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
 /// Adds those who are there at a time, seconds since the first frame.
-pub(super) type BodiesAt<'a> = &'a dyn Fn(f64, &mut Vec<Bystander>);
+pub(super) type BodiesAt<'a> = &'a dyn Fn(f64, &mut Vec<FigureInPicture>);
 
 /// Bodies around a moment, each with the limbs of the moment and the place of the ray's own time.
 pub(super) struct MovingBodies(Vec<MovingBody>);
 
 struct MovingBody {
-    at: Bystander,
+    at: FigureInPicture,
     /// Sphere around all that the body may be, from its feet.
     most_m: f64,
     velocity_in_world: DVec3,
@@ -36,20 +36,20 @@ impl MovingBodies {
             list
         };
         let places = |time_s: f64| -> BTreeMap<u32, DVec3> {
-            at(time_s).iter().map(|it| (it.instance, it.walker.state.feet_in_world)).collect()
+            at(time_s).iter().map(|it| (it.instance, it.figure.state.feet_in_world)).collect()
         };
         let (before, after) = (places(time_s - half_s), places(time_s + half_s));
-        let moving = |it: Bystander| {
+        let moving = |it: FigureInPicture| {
             let way = before.get(&it.instance).zip(after.get(&it.instance)).map(|(before, after)| *after - *before);
             let velocity_in_world = way.unwrap_or_default() / (2.0 * half_s);
             // Arms, umbrellas and mirrors are within.
-            let most_m = 1.0 + 2.0 * it.walker.height_m + it.walker.body.reach_m();
+            let most_m = 1.0 + 2.0 * it.figure.height_m + it.figure.body.reach_m();
             MovingBody { at: it, most_m, velocity_in_world, figure: OnceCell::new() }
         };
         let is_near = |it: &MovingBody| {
-            let walker = &it.at.walker;
-            let reach_m = range_m + walker.height_m + walker.body.reach_m();
-            walker.has_body() && walker.state.feet_in_world.distance(from) < reach_m
+            let figure = &it.at.figure;
+            let reach_m = range_m + figure.height_m + figure.body.reach_m();
+            figure.has_body() && figure.state.feet_in_world.distance(from) < reach_m
         };
         Self(at(time_s).into_iter().map(moving).filter(is_near).collect())
     }
@@ -60,7 +60,7 @@ impl MovingBodies {
         for body in &self.0 {
             let from = from - after_s * body.velocity_in_world;
             let range_m = nearest.map_or(range_m, |echo| echo.distance_m);
-            if !may_meet((from, ray, range_m), body.at.walker.state.feet_in_world, body.most_m) {
+            if !may_meet((from, ray, range_m), body.at.figure.state.feet_in_world, body.most_m) {
                 continue;
             }
             let figure = body.figure.get_or_init(|| Figure::of(&body.at));
@@ -81,12 +81,12 @@ fn may_meet((from, ray, range_m): (DVec3, DVec3, f64), center_in_world: DVec3, r
 }
 
 impl Figure {
-    fn of(it: &Bystander) -> Self {
+    fn of(it: &FigureInPicture) -> Self {
         let mut surface = vec![];
-        figure(&it.walker, &Clothes::draw(&it.walker.clothes_seed), 0, &mut surface);
+        add_figure(&it.figure, &Clothes::draw(&it.figure.clothes_seed), 0, &mut surface);
         let triangle = |triangle: &cosfly_figures::FigureTriangle| LidarTriangle {
             corners_in_world: triangle.corners_in_world,
-            label: it.walker.body.label(triangle.region).id(),
+            label: it.figure.body.label(triangle.region).id(),
             instance: it.instance,
         };
         let triangles: Vec<LidarTriangle> = surface.iter().map(triangle).collect();

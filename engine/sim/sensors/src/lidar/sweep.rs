@@ -9,7 +9,7 @@ use crate::airframe::Airframe;
 use crate::place::SensorPlace;
 use crate::smooth_flight::SmoothFlight;
 use cosfly_domain::Weather;
-use cosfly_figures::Bystander;
+use cosfly_figures::FigureInPicture;
 use cosfly_frames::{DQuat, DVec3, Pose, RandomStream, Seed};
 use std::ops::Range;
 
@@ -27,7 +27,7 @@ pub struct ScannedFlight<'a> {
     /// Surfaces that rays meet beside bodies.
     pub scene: &'a LidarScene,
     /// Adds the people and vehicles that are there at a time, seconds since the first frame.
-    pub bodies: &'a dyn Fn(f64, &mut Vec<Bystander>),
+    pub bodies: &'a dyn Fn(f64, &mut Vec<FigureInPicture>),
     /// Pose of the drone in each frame.
     pub poses_in_world: &'a [Pose],
     /// Time between frames, seconds.

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{SensorPlace, SmoothFlight};
 use cosfly_domain::{OrientedBox, SemanticLabel, Town, Weather, object_instance};
-use cosfly_figures::{BodyShape, Bystander, Walker, walker_triangles};
+use cosfly_figures::{BodyFigure, BodyShape, FigureInPicture, figure_triangles};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_maps::{MapConfig, read_town};
@@ -87,9 +87,9 @@ fn weather() -> Weather {
 }
 
 /// A person who runs at 5 m/s beside the drone's way; number 70,000 in pictures.
-fn runner(poses: &[Pose], time_s: f64) -> Bystander {
+fn runner(poses: &[Pose], time_s: f64) -> FigureInPicture {
     let feet_in_world = poses[0].position_in_world + DVec3::new(24.0 - 5.0 * time_s, 3.0, -6.0);
-    let walker = Walker {
+    let figure = BodyFigure {
         state: TargetState { feet_in_world, heading_rad: real::PI, speed_mps: 5.0 },
         height_m: 1.8,
         radius_m: 0.3,
@@ -97,12 +97,12 @@ fn runner(poses: &[Pose], time_s: f64) -> Bystander {
         gait_phase_rad: 0.7,
         body: BodyShape::default(),
     };
-    Bystander { walker, instance: 70_000 }
+    FigureInPicture { figure, instance: 70_000 }
 }
 
 fn sweeps(town: &Town, poses_in_world: &[Pose], pattern: &LidarPattern, weather: &Weather) -> Vec<LidarSweep> {
     let scene = &LidarScene::new(&[boxes(town), ground(town)].concat());
-    let bodies = &|time_s: f64, list: &mut Vec<Bystander>| list.push(runner(poses_in_world, time_s));
+    let bodies = &|time_s: f64, list: &mut Vec<FigureInPicture>| list.push(runner(poses_in_world, time_s));
     let (place, rate_hz, seed) = (SensorPlace::default(), 10.0, Seed([2; 32]));
     let flight = ScannedFlight { scene, bodies, poses_in_world, dt_s: DT_S, place, rate_hz, weather, seed };
     let mut all = vec![];
@@ -195,7 +195,7 @@ fn points_lie_where_rays_meet_the_first_thing_by_brute_force() {
             let nearest = |all: &mut dyn Iterator<Item = f64>| all.fold(f64::INFINITY, f64::min);
             let house = nearest(&mut town.obstacles.iter().filter_map(|it| to_box(from, ray, &it.shape)));
             let floor = nearest(&mut triangles.iter().filter_map(|it| to_triangle(from, ray, it.corners_in_world)));
-            let figure = walker_triangles(&runner(&poses, time_s).walker);
+            let figure = figure_triangles(&runner(&poses, time_s).figure);
             let runner = nearest(&mut figure.into_iter().filter_map(|corners| to_triangle(from, ray, corners)));
             let first = house.min(floor).min(runner);
             // Noise has 3.47 deviations at most. The rounded direction may miss an edge.

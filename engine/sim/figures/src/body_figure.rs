@@ -1,4 +1,4 @@
-//! People and vehicles that a picture shows: where they are, how they move, what draws their looks.
+//! [`BodyFigure`]: what is drawn of a person or a vehicle at a moment: where it is, how it moves, what draws its looks.
 
 use crate::body_shape::{BodyShape, Posture};
 use cosfly_domain::{BodyKind, BodyPlan};
@@ -10,9 +10,9 @@ const SHORT_STEPS_MPS: f64 = 0.75;
 /// Steps of people who run, relative to those of people who walk.
 const RUNNING_STEP: f64 = 1.4;
 
-/// Somebody in the picture: a person, or a vehicle with its rider.
+/// Figure of a body at a moment: of a person, or of a vehicle with its rider.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Walker {
+pub struct BodyFigure {
     /// Position, heading and speed.
     pub state: TargetState,
     /// Body height, metres; vehicles have that of [`Self::body`].
@@ -27,7 +27,7 @@ pub struct Walker {
     pub body: BodyShape,
 }
 
-impl Walker {
+impl BodyFigure {
     /// The figure of a body that has covered `covered_m` metres since its first state.
     pub fn of(plan: &BodyPlan, state: TargetState, covered_m: f64) -> Self {
         let height_m = plan.size_m.z;
@@ -77,11 +77,11 @@ impl Walker {
     }
 }
 
-/// Somebody in the picture beside the target.
+/// Figure of a body in a picture, beside that of the target.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bystander {
-    /// Position and looks.
-    pub walker: Walker,
+pub struct FigureInPicture {
+    /// The figure.
+    pub figure: BodyFigure,
     /// Id in instance images: not 0, not the target's, not that of an object.
     pub instance: u32,
 }

@@ -1,41 +1,41 @@
 //! People: jointed figures of frustums whose limbs swing with the gait.
 
 use crate::Clothes;
+use crate::body_figure::BodyFigure;
 use crate::body_shape::Posture;
 use crate::build::Hair;
 use crate::frustum::{FigurePart, FigureTriangle, Ring, Surface, around, ring};
 use crate::joints::{ArmJoints, Bearing, LegJoints, Limbs};
 use crate::region::Region;
 use crate::umbrella;
-use crate::walker::Walker;
 use cosfly_frames::{DVec3, real};
 
 /// Appends the figure of a person on foot whose parts are numbered from `first_part`.
 pub(crate) fn person_on_foot(
-    walker: &Walker,
+    figure: &BodyFigure,
     clothes: &Clothes,
     (person, first_part): (u32, u32),
     triangles: &mut Vec<FigureTriangle>,
 ) {
     let first = triangles.len();
-    let (sin, cos) = real::sin_cos(walker.state.heading_rad);
+    let (sin, cos) = real::sin_cos(figure.state.heading_rad);
     let mut surface = Surface {
-        feet: walker.state.feet_in_world,
+        feet: figure.state.feet_in_world,
         forward: DVec3::new(cos, sin, 0.0),
         right: DVec3::new(-sin, cos, 0.0),
-        height: walker.height_m,
+        height: figure.height_m,
         around: around(),
         person,
         parts: first_part,
         triangles,
     };
-    for FigurePart { low, high, region } in FigureParts::of(walker, clothes).all() {
+    for FigurePart { low, high, region } in FigureParts::of(figure, clothes).all() {
         surface.part(*low, *high, *region);
     }
     // Bent legs are shorter: the whole body sinks until a foot stands on the ground.
     let built = &mut triangles[first..];
     let lowest = built.iter().flat_map(|t| t.corners_in_world).map(|p| p.z).fold(f64::INFINITY, f64::min);
-    let sink = walker.state.feet_in_world.z - lowest;
+    let sink = figure.state.feet_in_world.z - lowest;
     for triangle in built {
         for point in triangle.corners_in_world.iter_mut().chain(&mut triangle.middle_in_world) {
             point.z += sink;
@@ -61,18 +61,18 @@ impl Default for FigureParts {
 }
 
 impl FigureParts {
-    /// The parts of a walker's figure; none without a body.
-    pub fn of(walker: &Walker, clothes: &Clothes) -> Self {
+    /// The parts of a figure; none without a body.
+    pub fn of(figure: &BodyFigure, clothes: &Clothes) -> Self {
         let mut parts = Self::default();
-        parts.set(walker, clothes);
+        parts.set(figure, clothes);
         parts
     }
 
-    /// Makes these the parts of a walker's figure; none without a body.
-    pub fn set(&mut self, walker: &Walker, clothes: &Clothes) {
+    /// Makes these the parts of a figure; none without a body.
+    pub fn set(&mut self, figure: &BodyFigure, clothes: &Clothes) {
         self.count = 0;
         let build = &clothes.build;
-        let Limbs { shoulders, hips, legs, arms, bearing } = Limbs::of(walker, build);
+        let Limbs { shoulders, hips, legs, arms, bearing } = Limbs::of(figure, build);
         let mut body = Body {
             forearm: if clothes.short_sleeves { Region::Skin } else { Region::Top },
             shoulders,
@@ -80,17 +80,17 @@ impl FigureParts {
             depth: build.belly,
             parts: self,
         };
-        if walker.has_body() {
+        if figure.has_body() {
             body.trunk(build.long_top);
             body.head(build.hair);
             body.luggage(clothes.outfit.backpack, build.shoulder_bag);
             legs.iter().for_each(|leg| body.leg(leg));
             arms.iter().for_each(|arm| body.arm(arm));
-            if walker.body.posture() == Posture::Stooped {
+            if figure.body.posture() == Posture::Stooped {
                 body.stick(&arms[0]);
             }
             body.bear(&bearing);
-            if walker.body.has_umbrella() {
+            if figure.body.has_umbrella() {
                 umbrella::parts().into_iter().for_each(|FigurePart { low, high, region }| body.part(low, high, region));
             }
         }
@@ -242,12 +242,12 @@ impl Body<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::walker::gait_phase_rad;
-    use crate::{BodyShape, figure, walker_triangles};
+    use crate::body_figure::gait_phase_rad;
+    use crate::{BodyShape, add_figure, figure_triangles};
     use cosfly_frames::{Seed, TargetState};
 
-    fn walking(phase: f64) -> Walker {
-        Walker {
+    fn walking(phase: f64) -> BodyFigure {
+        BodyFigure {
             state: TargetState { feet_in_world: DVec3::new(5.0, -3.0, 0.5), heading_rad: 1.0, speed_mps: 1.4 },
             height_m: 1.75,
             radius_m: 0.3,
@@ -261,7 +261,7 @@ mod tests {
     fn the_figure_fills_its_height_and_stays_near_its_cylinder() {
         for step in 0..12 {
             let target = walking(f64::from(step) * 0.55);
-            let corners: Vec<DVec3> = walker_triangles(&target).into_iter().flatten().collect();
+            let corners: Vec<DVec3> = figure_triangles(&target).into_iter().flatten().collect();
             let top = corners.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max);
             let low = corners.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
             assert!((2.1..2.2501).contains(&top) && (low - 0.5).abs() < 1e-9, "{low} to {top}");
@@ -273,8 +273,8 @@ mod tests {
     #[test]
     fn normals_point_out_of_every_part() {
         let mut triangles = Vec::new();
-        let walker = walking(0.7);
-        figure(&walker, &Clothes::draw(&walker.clothes_seed), 0, &mut triangles);
+        let figure = walking(0.7);
+        add_figure(&figure, &Clothes::draw(&figure.clothes_seed), 0, &mut triangles);
         assert!(triangles.len() > 300 && triangles.iter().all(|t| (t.normal_in_world.length() - 1.0).abs() < 1e-9));
     }
 
