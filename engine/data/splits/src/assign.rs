@@ -1,11 +1,11 @@
 //! Groups of flights that stay together, their splits, and nested subsets.
 
 use super::area;
-use super::disjoint_sets::DisjointSets;
 use super::facts::FlightFacts;
 use super::overlap::join_overlapping;
 use super::places::Places;
 use super::route;
+use cosfly_disjoint_sets::DisjointSets;
 use cosfly_frames::Seed;
 use cosfly_schema::Split;
 use cosfly_schema::config::{OverlapDirection, SplitBy, SplitShares};

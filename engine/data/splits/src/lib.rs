@@ -1,6 +1,6 @@
 //! Splits without leaks: groups of flights, their splits, and a linter for published datasets.
 //!
-//! * [`route`]: ground that a walk covers; [`overlap`]: walks that repeat each other; [`disjoint_sets`]: their groups.
+//! * [`route`]: ground that a walk covers; [`overlap`]: walks that repeat each other.
 //! * [`places`]: towns by their ground plans.
 //! * [`facts`]: input of the linter for each flight.
 //! * [`assign`]: groups of flights, their splits, nested subsets.
@@ -11,7 +11,6 @@
 pub mod area;
 pub mod assign;
 pub mod balance;
-pub mod disjoint_sets;
 pub mod facts;
 pub mod leaks;
 pub mod overlap;

@@ -4,8 +4,8 @@
 //! opposite one where that counts. The share
 //! of a walk's cells that another one repeats is their overlap. Memory is linear in the number of entered cells.
 
-use super::disjoint_sets::DisjointSets;
 use super::route::{Route, back, near};
+use cosfly_disjoint_sets::DisjointSets;
 use cosfly_schema::config::OverlapDirection;
 use rayon::prelude::*;
 use std::collections::BTreeMap;

@@ -1,7 +1,7 @@
 //! Places of flights: towns by their ground plans, whatever their names.
 
-use super::disjoint_sets::DisjointSets;
 use super::facts::FlightFacts;
+use cosfly_disjoint_sets::DisjointSets;
 use cosfly_schema::Split;
 use cosfly_schema::TownLayout;
 use cosfly_schema::config::{SplitBy, SplitShares};

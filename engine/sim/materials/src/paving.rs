@@ -10,6 +10,7 @@ use super::pattern::{
 };
 use super::square::Square;
 use super::vector::Vec3;
+use cosfly_disjoint_sets::DisjointSets;
 use cosfly_domain::{Town, WalkableKind};
 use cosfly_frames::{DVec2, simd_kernel};
 use cosfly_town::polygons::{PolygonIndex, twice_area_m2};
@@ -101,21 +102,14 @@ impl Squares {
     pub fn of(town: &Town) -> Self {
         let plazas = town.walkable.iter().filter(|area| area.kind == WalkableKind::Plaza && !area.synthetic);
         let outlines = PolygonIndex::new(plazas.map(|area| area.plan()).collect());
-        let mut first: Vec<usize> = (0..outlines.outlines().len()).collect();
-        let root = |first: &[usize], mut number: usize| {
-            while first[number] != number {
-                number = first[number];
-            }
-            number
-        };
+        let mut squares = DisjointSets::new(outlines.outlines().len());
         for (number, outline) in outlines.outlines().iter().enumerate() {
             for other in outline.iter().flat_map(|corner| outlines.at(*corner)) {
-                let (one, other) = (root(&first, number), root(&first, other));
-                first[one.max(other)] = one.min(other);
+                squares.join(number, other);
             }
         }
         let laid = outlines.outlines().iter().enumerate().map(|(number, outline)| {
-            let corner = outlines.outlines()[root(&first, number)].first().copied().unwrap_or_default();
+            let corner = outlines.outlines()[squares.smallest(number)].first().copied().unwrap_or_default();
             let kind = hash(corner.x.round() as i32 as u32, corner.y.round() as i32 as u32) as usize % KINDS.len() + 1;
             Square { along: longest_side(outline).as_vec2().to_array(), kind: kind as f32 }
         });

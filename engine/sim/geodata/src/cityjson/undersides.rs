@@ -2,6 +2,7 @@
 
 use super::faces::Face;
 use crate::slabs::inner_point;
+use cosfly_disjoint_sets::DisjointSets;
 use cosfly_frames::DVec2;
 use cosfly_town::polygons::contains;
 use std::collections::BTreeMap;
@@ -51,26 +52,25 @@ fn closed_solids(faces: &[Face]) -> Vec<Vec<usize>> {
         };
         rings.push((face, ring.iter().map(number).collect()));
     }
-    let mut root: Vec<usize> = (0..numbers.len()).collect();
+    let mut sets = DisjointSets::new(numbers.len());
     let mut edges = Vec::new();
     for (_, ring) in &rings {
         for (at, from) in ring.iter().enumerate() {
             let to = ring[(at + 1) % ring.len()];
-            let (a, b) = (top(&mut root, *from), top(&mut root, to));
-            root[a.max(b)] = a.min(b);
+            sets.join(*from, to);
             if *from != to {
                 edges.push([to.min(*from), to.max(*from)]);
             }
         }
     }
     edges.sort_unstable();
-    let mut is_open = vec![false; root.len()];
+    let mut is_open = vec![false; numbers.len()];
     for same in edges.chunk_by(|a, b| a == b).filter(|same| same.len() % 2 == 1) {
-        is_open[top(&mut root, same[0][0])] = true;
+        is_open[sets.smallest(same[0][0])] = true;
     }
     let mut solids: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (face, ring) in &rings {
-        let Some(first) = ring.first().map(|first| top(&mut root, *first)).filter(|first| !is_open[*first]) else {
+        let Some(first) = ring.first().map(|first| sets.smallest(*first)).filter(|first| !is_open[*first]) else {
             continue;
         };
         let solid = solids.entry(first).or_default();
@@ -79,14 +79,6 @@ fn closed_solids(faces: &[Face]) -> Vec<Vec<usize>> {
         }
     }
     solids.into_values().collect()
-}
-
-fn top(root: &mut [usize], mut at: usize) -> usize {
-    while root[at] != at {
-        root[at] = root[root[at]];
-        at = root[at];
-    }
-    at
 }
 
 #[cfg(test)]

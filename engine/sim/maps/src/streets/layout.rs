@@ -2,6 +2,7 @@
 
 use super::clearance::{Clearance, OPEN_M};
 use super::middles::Middle;
+use cosfly_disjoint_sets::DisjointSets;
 use cosfly_frames::DVec2;
 use cosfly_places::streets::{Profile, StreetPlan, acute_ends, short_streets};
 
@@ -131,27 +132,15 @@ pub(super) fn length_m(line: &[DVec2]) -> f64 {
 
 /// Leaves out the nets of few metres.
 fn drop_short_nets(plan: &mut StreetPlan) {
-    let mut net_of: Vec<usize> = (0..plan.nodes.len()).collect();
-    for ends in plan.links.iter().map(|link| link.ends) {
-        unite(&mut net_of, ends);
+    let mut nets = DisjointSets::new(plan.nodes.len());
+    for [a, b] in plan.links.iter().map(|link| link.ends) {
+        nets.join(a, b);
     }
     let mut lengths_m = vec![0.0; plan.nodes.len()];
     for link in &plan.links {
-        lengths_m[root(&net_of, link.ends[0])] += length_m(&plan.points(link));
+        lengths_m[nets.smallest(link.ends[0])] += length_m(&plan.points(link));
     }
-    plan.links.retain(|link| lengths_m[root(&net_of, link.ends[0])] >= SHORTEST_NET_M);
-}
-
-fn root(of: &[usize], mut at: usize) -> usize {
-    while of[at] != at {
-        at = of[at];
-    }
-    at
-}
-
-fn unite(of: &mut [usize], ends: [usize; 2]) {
-    let [a, b] = ends.map(|end| root(of, end));
-    of[a.max(b)] = a.min(b);
+    plan.links.retain(|link| lengths_m[nets.smallest(link.ends[0])] >= SHORTEST_NET_M);
 }
 
 /// Middle lines and their points.
@@ -202,19 +191,19 @@ impl Net {
     /// Makes junctions one that are near to each other.
     fn join_junctions(&mut self) {
         let degrees = self.degrees();
-        let mut joint: Vec<usize> = (0..self.points.len()).collect();
+        let mut joint = DisjointSets::new(self.points.len());
         for middle in &self.middles {
             if length_m(&middle.line) < ONE_JUNCTION_M && middle.ends.iter().all(|end| degrees[*end] > 2) {
-                unite(&mut joint, middle.ends);
+                joint.join(middle.ends[0], middle.ends[1]);
             }
         }
         let mut sums = vec![(DVec2::ZERO, 0.0); self.points.len()];
         for (point, at) in self.points.iter().enumerate() {
-            let (sum, count) = &mut sums[root(&joint, point)];
+            let (sum, count) = &mut sums[joint.smallest(point)];
             (*sum, *count) = (*sum + *at, *count + 1.0);
         }
         for middle in &mut self.middles {
-            middle.ends = middle.ends.map(|end| root(&joint, end));
+            middle.ends = middle.ends.map(|end| joint.smallest(end));
         }
         self.middles.retain(|middle| middle.ends[0] != middle.ends[1]);
         for (point, (sum, count)) in self.points.iter_mut().zip(sums).filter(|(_, (_, count))| *count > 0.0) {

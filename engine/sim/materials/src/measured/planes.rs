@@ -2,6 +2,7 @@
 
 use super::terraces::{STEP_M, Terraces};
 use crate::parts::SceneBox;
+use cosfly_disjoint_sets::DisjointSets;
 use cosfly_frames::{DVec2, DVec3};
 use std::collections::VecDeque;
 
@@ -130,33 +131,27 @@ impl Planes {
 
     /// For each plane the eaves of all planes that hang together with it.
     fn eaves(&self, terraces: &Terraces) -> Vec<f64> {
-        let mut roots: Vec<usize> = (0..self.planes.len()).collect();
-        let root = |roots: &[usize], mut at: usize| {
-            while roots[at] != at {
-                at = roots[at];
-            }
-            at
-        };
+        let mut roofs = DisjointSets::new(self.planes.len());
         for cell in 0..self.labels.len() {
             let Some(own_m) = self.height_m(terraces, cell) else { continue };
             for near in terraces.around(cell, 1) {
                 let is_beside =
                     self.height_m(terraces, near).is_some_and(|height_m| (height_m - own_m).abs() < JOINED_M);
                 if is_beside && self.labels[near] != self.labels[cell] {
-                    let [a, b] = [cell, near].map(|cell| root(&roots, usize::from(self.labels[cell])));
-                    roots[a.max(b)] = a.min(b);
+                    let [a, b] = [cell, near].map(|cell| usize::from(self.labels[cell]));
+                    roofs.join(a, b);
                 }
             }
         }
         let mut heights_m: Vec<Vec<f64>> = vec![Vec::new(); self.planes.len()];
         for cell in 0..self.labels.len() {
             if let Some(height_m) = self.height_m(terraces, cell) {
-                heights_m[root(&roots, usize::from(self.labels[cell]))].push(height_m);
+                heights_m[roofs.smallest(usize::from(self.labels[cell]))].push(height_m);
             }
         }
         heights_m.iter_mut().for_each(|heights_m| heights_m.sort_by(f64::total_cmp));
         let lowest = |plane: usize| {
-            let heights_m = &heights_m[root(&roots, plane)];
+            let heights_m = &heights_m[roofs.smallest(plane)];
             heights_m.get(heights_m.len() / 50).copied().unwrap_or(f64::INFINITY)
         };
         (0..self.planes.len()).map(lowest).collect()

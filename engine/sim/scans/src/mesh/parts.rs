@@ -1,5 +1,6 @@
 //! [`Part`]: triangles under one name, and how they fall apart.
 
+use cosfly_disjoint_sets::DisjointSets;
 use cosfly_frames::DVec3;
 use cosfly_town::MapError;
 
@@ -46,16 +47,17 @@ impl Part {
 
     /// The parts that hang together by their corners, in the order of their first triangles.
     pub fn connected(&self) -> Vec<Self> {
-        let mut root = self.merged_corners();
-        for [a, b, c] in self.triangles.iter().map(|triangle| triangle.map(|corner| corner as usize)) {
-            join(&mut root, a, b);
-            join(&mut root, b, c);
+        let merged = self.merged_corners();
+        let mut sets = DisjointSets::new(merged.len());
+        for [a, b, c] in self.triangles.iter().map(|triangle| triangle.map(|corner| merged[corner as usize])) {
+            sets.join(a, b);
+            sets.join(b, c);
         }
         let mut number = vec![usize::MAX; self.vertices.len()];
         let mut parts: Vec<Self> = Vec::new();
         let mut moved = vec![u32::MAX; self.vertices.len()];
         for triangle in &self.triangles {
-            let top = find(&mut root, triangle[0] as usize);
+            let top = sets.smallest(merged[triangle[0] as usize]);
             if number[top] == usize::MAX {
                 number[top] = parts.len();
                 parts.push(Self { name: self.name.clone(), owner: self.owner, ..Self::default() });
@@ -73,19 +75,6 @@ impl Part {
         }
         parts
     }
-}
-
-pub(super) fn find(root: &mut [usize], mut at: usize) -> usize {
-    while root[at] != at {
-        root[at] = root[root[at]];
-        at = root[at];
-    }
-    at
-}
-
-pub(super) fn join(root: &mut [usize], a: usize, b: usize) {
-    let (a, b) = (find(root, a), find(root, b));
-    root[a.max(b)] = a.min(b);
 }
 
 /// Smallest and largest corner.

@@ -1,9 +1,10 @@
 //! Closed slabs of ground: their undersides are no ground.
 
 use super::level::is_level;
-use super::parts::{Part, find, join};
+use super::parts::Part;
 use super::plan_index::PlanIndex;
 use super::solid::height_at;
+use cosfly_disjoint_sets::DisjointSets;
 use cosfly_frames::DVec3;
 
 /// A face this near to where a vertical line begins is the face that it begins on, metres.
@@ -46,11 +47,11 @@ fn is_below_its_solid(triangle: &[DVec3; 3], faces: &[[DVec3; 3]], index: &PlanI
 fn closed_solids(part: &Part) -> Vec<Vec<usize>> {
     let merged = part.merged_corners();
     let corners = |triangle: &[u32; 3]| triangle.map(|corner| merged[corner as usize]);
-    let mut root: Vec<usize> = (0..merged.len()).collect();
+    let mut sets = DisjointSets::new(merged.len());
     let mut edges = Vec::with_capacity(3 * part.triangles.len());
     for [a, b, c] in part.triangles.iter().map(corners) {
-        join(&mut root, a, b);
-        join(&mut root, b, c);
+        sets.join(a, b);
+        sets.join(b, c);
         // A triangle without an area has two equal corners, and closes nothing.
         if a != b && b != c && c != a {
             edges.extend([[a.min(b), a.max(b)], [b.min(c), b.max(c)], [c.min(a), c.max(a)]]);
@@ -59,12 +60,12 @@ fn closed_solids(part: &Part) -> Vec<Vec<usize>> {
     edges.sort_unstable();
     let mut is_open = vec![false; merged.len()];
     for same in edges.chunk_by(|a, b| a == b).filter(|same| same.len() % 2 == 1) {
-        is_open[find(&mut root, same[0][0])] = true;
+        is_open[sets.smallest(same[0][0])] = true;
     }
     let mut place = vec![usize::MAX; merged.len()];
     let mut solids: Vec<Vec<usize>> = Vec::new();
     for (at, triangle) in part.triangles.iter().enumerate() {
-        let top = find(&mut root, corners(triangle)[0]);
+        let top = sets.smallest(corners(triangle)[0]);
         if is_open[top] {
             continue;
         }

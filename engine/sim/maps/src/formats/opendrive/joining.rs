@@ -3,6 +3,7 @@
 //! Files often leave out the pavement at junction corners, or give an arm pavement on one side only; pedestrians
 //! walk there all the same. Every strip is synthetic.
 
+use cosfly_disjoint_sets::DisjointSets;
 use cosfly_domain::{Obstacle, SemanticLabel, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_town::GroundIndex;
@@ -38,26 +39,6 @@ struct Sample {
     polygon: usize,
 }
 
-/// Sets of polygons that can be reached from each other.
-struct Parts {
-    parents: Vec<usize>,
-}
-
-impl Parts {
-    fn root(&mut self, mut polygon: usize) -> usize {
-        while self.parents[polygon] != polygon {
-            self.parents[polygon] = self.parents[self.parents[polygon]];
-            polygon = self.parents[polygon];
-        }
-        polygon
-    }
-
-    fn unite(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.parents[a.max(b)] = a.min(b);
-    }
-}
-
 /// Strips that join the parts of `walkable`, as far as they are near each other, on level ground and free of
 /// obstacles. Strips beyond the lanes also get a surface.
 pub(super) fn joining_strips(
@@ -70,17 +51,17 @@ pub(super) fn joining_strips(
     if perimeter_m / FINE_M > MOST_SAMPLES {
         return Vec::new();
     }
-    let mut parts = Parts { parents: (0..walkable.len()).collect() };
+    let mut parts = DisjointSets::new(walkable.len());
     let fine = samples(walkable, FINE_M);
     unite_touching(&mut parts, &fine, walkable);
     let blocked = footprints(obstacles);
     let mut strips = Vec::new();
     for (a, b) in candidates(&mut parts, &samples(walkable, SPACING_M)) {
-        if parts.root(a.polygon) == parts.root(b.polygon) {
+        if parts.smallest(a.polygon) == parts.smallest(b.polygon) {
             continue;
         }
         if let Some(strip) = strip(a.point, b.point, &blocked, ground, meshes) {
-            parts.unite(a.polygon, b.polygon);
+            parts.join(a.polygon, b.polygon);
             strips.push(strip);
         }
     }
@@ -128,7 +109,7 @@ fn around(cells: &Cells, (x, y): (i64, i64)) -> impl Iterator<Item = usize> + '_
 }
 
 /// Polygons touch when outline points are close or lie inside the other polygon, at about the same height.
-fn unite_touching(parts: &mut Parts, fine: &[Sample], walkable: &[WalkablePolygon]) {
+fn unite_touching(parts: &mut DisjointSets, fine: &[Sample], walkable: &[WalkablePolygon]) {
     let [near_m, level_m] = TOUCHING_M;
     let cell_m = 2.0 * near_m;
     let grid = cells(fine, cell_m);
@@ -141,7 +122,7 @@ fn unite_touching(parts: &mut Parts, fine: &[Sample], walkable: &[WalkablePolygo
             let offset = (other.point - sample.point).abs();
             pairs += 1;
             if offset.z < level_m && offset.truncate().length() < near_m {
-                parts.unite(sample.polygon, other.polygon);
+                parts.join(sample.polygon, other.polygon);
             }
         }
     }
@@ -149,25 +130,25 @@ fn unite_touching(parts: &mut Parts, fine: &[Sample], walkable: &[WalkablePolygo
     for sample in fine {
         for other in index.at(sample.point.truncate()) {
             if (walkable[other].mean_height_m() - sample.point.z).abs() < level_m {
-                parts.unite(sample.polygon, other);
+                parts.join(sample.polygon, other);
             }
         }
     }
 }
 
 /// One point of each part in each square of one spacing.
-fn thinned<'s>(parts: &mut Parts, samples: &'s [Sample]) -> Vec<&'s Sample> {
+fn thinned<'s>(parts: &mut DisjointSets, samples: &'s [Sample]) -> Vec<&'s Sample> {
     let mut kept = BTreeMap::new();
     for sample in samples {
-        kept.entry((parts.root(sample.polygon), cell(sample.point, SPACING_M))).or_insert(sample);
+        kept.entry((parts.smallest(sample.polygon), cell(sample.point, SPACING_M))).or_insert(sample);
     }
     kept.into_values().collect()
 }
 
 /// Pairs of points of different parts, nearest first; for each point the nearest one of each other part.
-fn candidates<'s>(parts: &mut Parts, samples: &'s [Sample]) -> Vec<(&'s Sample, &'s Sample)> {
+fn candidates<'s>(parts: &mut DisjointSets, samples: &'s [Sample]) -> Vec<(&'s Sample, &'s Sample)> {
     let samples = thinned(parts, samples);
-    let roots: Vec<usize> = samples.iter().map(|sample| parts.root(sample.polygon)).collect();
+    let roots: Vec<usize> = samples.iter().map(|sample| parts.smallest(sample.polygon)).collect();
     if roots.windows(2).all(|pair| pair[0] == pair[1]) {
         return Vec::new();
     }
