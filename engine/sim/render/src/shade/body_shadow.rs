@@ -3,12 +3,12 @@
 //! The rings of a figure are level, so over ground sheared along the light each is an ellipse of one height: a part is the
 //! band of triangles between two of them that faces the sun, and its upper ring.
 
-use super::shadow_frame::Frame;
 use super::sunlight::FIGURE_SIDE;
 use cosfly_figures::{BodyFigure, FigureParts, MOST_PARTS, Ring, SIDES};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3, real, simd_kernel};
 use cosfly_materials::pattern::{floor_int, least, most, share};
+use cosfly_raster::shadow_frame::ShadowFrame;
 use glam::Vec2;
 
 /// Texels that are compared at a time.
@@ -33,11 +33,11 @@ const NO_RING: SeenRing = SeenRing { corners: [[0.0; 2]; CORNERS], height_m: 0.0
 /// Draws the shadow of a person into the first `side` rows and columns of a map; says where they lie.
 pub(super) fn draw_person(
     level: Level,
-    lattice: &Frame,
+    lattice: &ShadowFrame,
     (figure, parts): (&BodyFigure, &FigureParts),
     side: usize,
     heights: &mut Heights,
-) -> Option<Frame> {
+) -> Option<ShadowFrame> {
     let stance = Stance::new(lattice, figure, parts);
     let mut rings = [NO_RING; 2 * MOST_PARTS];
     let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
@@ -60,7 +60,7 @@ pub(super) fn draw_person(
         return None;
     }
     let texels_m = size / (side as f64 - 4.0);
-    let frame = Frame { corner: (stance.feet + low_m) / texels_m - 2.0, texels_m, ..*lattice };
+    let frame = ShadowFrame { corner: (stance.feet + low_m) / texels_m - 2.0, texels_m, ..*lattice };
     heights[..FIGURE_SIDE * side].fill(0.0);
     let per_m = [(1.0 / texels_m.x) as f32, (1.0 / texels_m.y) as f32];
     draw_parts(level, &mut rings[..2 * count], low, per_m, side, heights);
@@ -77,7 +77,7 @@ struct Stance {
 }
 
 impl Stance {
-    fn new(lattice: &Frame, figure: &BodyFigure, parts: &FigureParts) -> Self {
+    fn new(lattice: &ShadowFrame, figure: &BodyFigure, parts: &FigureParts) -> Self {
         let (sin, cos) = real::sin_cos(figure.state.heading_rad);
         let sunk = figure.state.feet_in_world - DVec3::Z * (parts.lowest() * figure.height_m);
         let axes = [DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0), DVec3::Z];
@@ -216,7 +216,7 @@ mod tests {
     use cosfly_materials::vector::Vec3;
 
     /// Greatest height of a triangle above a place of a map, metres.
-    fn height_at(frame: &Frame, corners: &[DVec3; 3], at: DVec2) -> Option<f64> {
+    fn height_at(frame: &ShadowFrame, corners: &[DVec3; 3], at: DVec2) -> Option<f64> {
         let points = corners.map(|corner| DVec2::from_array(frame.place(corner)));
         let cross = |a: DVec2, b: DVec2, c: DVec2| (b - a).perp_dot(c - a);
         let area = cross(points[0], points[1], points[2]);
@@ -237,7 +237,7 @@ mod tests {
                 body: BodyShape::default(),
             };
             let clothes = Clothes::draw(&figure.clothes_seed);
-            let lattice = Sun::new(Vec3::new(0.5, -0.4, 0.6).unit(), 0.0).lattice(0);
+            let lattice = Sun::new(Vec3::new(0.5, -0.4, 0.6).unit(), [0.0; 2]).lattice(0);
             let mut heights = [0.0; HEIGHTS];
             let parts = FigureParts::of(&figure, &clothes);
             let frame = draw_person(Level::best(), &lattice, (&figure, &parts), side, &mut heights).expect("a shadow");

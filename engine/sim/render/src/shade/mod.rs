@@ -22,8 +22,6 @@ mod seen_places;
 pub mod setting;
 pub mod shader;
 pub mod shadow;
-mod shadow_frame;
-pub mod shadow_region;
 pub mod simple;
 mod skin;
 pub mod sky;

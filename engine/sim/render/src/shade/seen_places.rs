@@ -1,10 +1,10 @@
 //! Where the surfaces lie that a picture shows, over ground sheared along the light: their shadows alone are needed.
 
-use super::shadow_frame::Frame;
-use super::shadow_region::FAR_M;
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3, simd_kernel};
 use cosfly_raster::eye::Eye;
+use cosfly_raster::seen_region::FAR_M;
+use cosfly_raster::shadow_frame::ShadowFrame;
 use cosfly_raster::visibility::{Screen, Visibility};
 
 /// Sides of the blocks of a large picture and of a small one, pixels.
@@ -27,7 +27,7 @@ impl SeenPlaces {
     pub(super) fn visit(
         &mut self,
         level: Level,
-        lattice: &Frame,
+        lattice: &ShadowFrame,
         (eye, screen): (&Eye, &Screen),
         drawn: &Visibility,
         mut visit: impl FnMut(DVec2, DVec2),
@@ -104,7 +104,7 @@ mod tests {
             let camera = Camera { width, height, horizontal_fov_rad: 1.3 };
             let screen = Screen::new(&camera);
             let eye = Eye::new(&Pose::looking_at(DVec3::new(3.0, 4.0, 20.0), DVec3::new(30.0, -9.0, 1.0)));
-            let lattice = Sun::new(Vec3::new(0.5, -0.4, 0.6).unit(), 0.0).lattice(0);
+            let lattice = Sun::new(Vec3::new(0.5, -0.4, 0.6).unit(), [0.0; 2]).lattice(0);
             let (width, height) = (width as usize, height as usize);
             let mut drawn = Visibility::new(width, height);
             for (at, depth) in drawn.inverse_depth.iter_mut().enumerate() {

@@ -6,8 +6,6 @@
 use crate::people::People;
 use crate::scene::Scene;
 use crate::shade::body_shadow::{HEIGHTS, Heights, draw_person};
-use crate::shade::shadow_frame::Frame;
-use crate::shade::shadow_region::Region;
 use crate::shade::sun_map::draw;
 use crate::shade::sun_tiles::Sun;
 use crate::shade::sun_window::Window;
@@ -20,6 +18,8 @@ use cosfly_materials::lanes::Block;
 use cosfly_materials::pattern::{NoiseTexture, fixed_size};
 use cosfly_materials::vector::Vec3;
 use cosfly_raster::eye::Eye;
+use cosfly_raster::seen_region::SeenRegion;
+use cosfly_raster::shadow_frame::ShadowFrame;
 use cosfly_raster::visibility::{Screen, Visibility};
 
 /// People less high than this on the screen throw no shadow, pixels.
@@ -33,8 +33,8 @@ const LEAST_TARGET_PX: f64 = 48.0;
 pub struct Shadows {
     window: Window,
     places: Places,
-    /// A scene and the height of its lowest place, metres.
-    lowest_m: Option<(u64, f64)>,
+    /// A scene and the heights of its lowest and highest places, metres.
+    heights_m: Option<(u64, [f64; 2])>,
     figure: Visibility,
     heights: Box<Heights>,
     /// One for each of a frame's people, and some that wait to be used again.
@@ -47,7 +47,7 @@ impl Shadows {
         Self {
             window: Window::new(),
             places: Places::default(),
-            lowest_m: None,
+            heights_m: None,
             figure: Visibility::new(FIGURE_SIDE, FIGURE_SIDE),
             heights: Box::new([0.0; HEIGHTS]),
             figures: Vec::new(),
@@ -64,13 +64,13 @@ impl Shadows {
         (people, target): (&People, Option<DVec3>),
         drawn: &Visibility,
     ) {
-        let lowest_m = match self.lowest_m {
-            Some((id, lowest_m)) if id == scene.identity => lowest_m,
-            _ => lowest_place_m(scene),
+        let heights_m = match self.heights_m {
+            Some((id, heights_m)) if id == scene.identity => heights_m,
+            _ => heights_m(scene),
         };
-        self.lowest_m = Some((scene.identity, lowest_m));
-        let sun = Sun::new(to_sun, lowest_m);
-        self.places = self.window.prepare(level, (scene, &sun), (eye, screen), (target, lowest_m), drawn);
+        self.heights_m = Some((scene.identity, heights_m));
+        let sun = Sun::new(to_sun, heights_m);
+        self.places = self.window.prepare(level, (scene, &sun), (eye, screen), (target, heights_m[0]), drawn);
         let lattice = sun.lattice(0);
         for (position, person) in people.members.iter().enumerate() {
             if self.figures.len() <= position {
@@ -107,9 +107,9 @@ impl Shadows {
     }
 
     /// Draws a vehicle's shadow into the first `side` rows and columns of the scratch map, which lie there.
-    fn draw_figure(&mut self, frame: &Frame, to_sun: Vec3, triangles: &[FigureTriangle], side: usize) {
+    fn draw_figure(&mut self, frame: &ShadowFrame, to_sun: Vec3, triangles: &[FigureTriangle], side: usize) {
         self.figure.clear_part([0; 2], [side; 2]);
-        let whole = Region { first: [0; 2], end: [side; 2] };
+        let whole = SeenRegion { first: [0; 2], end: [side; 2] };
         let to_sun = DVec3::new(f64::from(to_sun.x), f64::from(to_sun.y), f64::from(to_sun.z));
         for triangle in triangles.iter().filter(|triangle| triangle.normal_in_world.dot(to_sun) > 1e-6) {
             let normal = triangle.normal_in_world;
@@ -132,10 +132,15 @@ impl Shadows {
 
 /// Where the map of a vehicle's shadow lies: along the vehicle or along the light, whichever needs less room. Long edges then
 /// follow the texels and do not turn into stairs.
-fn figure_frame(lattice: &Frame, heading_rad: f64, triangles: &[FigureTriangle], side: usize) -> Option<Frame> {
+fn figure_frame(
+    lattice: &ShadowFrame,
+    heading_rad: f64,
+    triangles: &[FigureTriangle],
+    side: usize,
+) -> Option<ShadowFrame> {
     let (sin, cos) = real::sin_cos(heading_rad);
-    let turned = Frame { axes: [DVec2::new(-sin, cos), DVec2::new(cos, sin)], ..*lattice };
-    let fitted = |frame: &Frame| {
+    let turned = ShadowFrame { axes: [DVec2::new(-sin, cos), DVec2::new(cos, sin)], ..*lattice };
+    let fitted = |frame: &ShadowFrame| {
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         for corner in triangles.iter().flat_map(|triangle| triangle.corners_in_world) {
             let at = frame.sheared(corner);
@@ -144,18 +149,26 @@ fn figure_frame(lattice: &Frame, heading_rad: f64, triangles: &[FigureTriangle],
         let size = high - low;
         let fits = size.is_finite() && size.min_element() > 0.0 && size.max_element() <= 100.0;
         let texels_m = size / (side as f64 - 4.0);
-        fits.then(|| Frame { corner: low / texels_m - 2.0, texels_m, ..*frame })
+        fits.then(|| ShadowFrame { corner: low / texels_m - 2.0, texels_m, ..*frame })
     };
-    let room = |frame: &Frame| frame.texels_m.x * frame.texels_m.y;
+    let room = |frame: &ShadowFrame| frame.texels_m.x * frame.texels_m.y;
     let [along, lit] = [fitted(&turned)?, fitted(lattice)?];
     Some(if room(&along) <= room(&lit) { along } else { lit })
 }
 
-/// Height of the lowest box or ground.
-fn lowest_place_m(scene: &Scene) -> f64 {
-    let boxes = scene.boxes.iter().map(|b| b.center_in_world.z - b.half_bounds_m.z);
-    let ground = scene.clusters.iter().map(|cluster| cluster.center_in_world.z - cluster.half_bounds_m.z);
-    boxes.chain(ground).fold(f64::INFINITY, f64::min)
+/// Least and greatest height of boxes, ground, models and a lit mesh.
+fn heights_m(scene: &Scene) -> [f64; 2] {
+    let boxes = scene.boxes.iter().map(|b| (b.center_in_world, b.half_bounds_m));
+    let ground = scene.clusters.iter().map(|cluster| (cluster.center_in_world, cluster.half_bounds_m));
+    let props = scene.props.props.iter().map(|prop| (prop.center_in_world, prop.half_bounds_m));
+    let mesh = scene.lit_mesh().map_or(&[][..], |mesh| &mesh.clusters);
+    let mesh = mesh.iter().map(|cluster| (cluster.center_in_world, cluster.half_bounds_m));
+    let around = [f64::INFINITY, f64::NEG_INFINITY];
+    boxes
+        .chain(ground)
+        .chain(props)
+        .chain(mesh)
+        .fold(around, |[low, high], (center, half)| [low.min(center.z - half.z), high.max(center.z + half.z)])
 }
 
 #[cfg(test)]
@@ -180,7 +193,7 @@ mod tests {
         add_figure(&car, &Clothes::draw(&car.clothes_seed), 0, &mut triangles);
         let (sin, cos) = real::sin_cos(heading_rad);
         for (to_sun, is_along) in [(Vec3::new(0.1, 0.2, 1.0), true), (Vec3::new(1.0, 0.0, 0.1), false)] {
-            let lattice = Sun::new(to_sun.unit(), 0.0).lattice(0);
+            let lattice = Sun::new(to_sun.unit(), [0.0; 2]).lattice(0);
             let frame = figure_frame(&lattice, heading_rad, &triangles, 96).expect("a shadow");
             assert_eq!(frame.axes[1] == DVec2::new(cos, sin), is_along);
             for corner in triangles.iter().flat_map(|triangle| triangle.corners_in_world) {

@@ -3,25 +3,32 @@
 //!
 //! A tile depends on the town, the sun and its own place alone, so pictures do not depend on who drew it or when.
 
-use super::shadow_frame::Frame;
-use super::shadow_region::Region;
 use super::sun_tiles::{Sun, Tile, TilePlace};
-use super::sunlight::{LEAVES, PACKED_ROWS, SOLID, SUMMARY_SIDE, TILE, Texels, WINDOW_TILES, measure_tile, pack_tile};
+use super::sunlight::{
+    LEAVES, PACKED_ROWS, SAMPLES, SOLID, SUMMARY_SIDE, TILE, Texels, WINDOW_TILES, add_sample, measure_tile, pack_tile,
+};
 use crate::scene::Scene;
 use crate::scene_mesh::SceneMesh;
 use cosfly_domain::ObstacleKind;
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_materials::parts::BOX_FACES;
+use cosfly_raster::seen_region::SeenRegion;
+use cosfly_raster::shadow_frame::ShadowFrame;
 use cosfly_raster::visibility::{PlaneOnScreen, Visibility};
 use std::sync::Arc;
 
 /// Posts thinner than this cast the shadow of a post this thick, half their width in texels: the map would tear them.
-const LEAST_HALF_WIDTH_TEXELS: f64 = 0.65;
+const LEAST_HALF_WIDTH_TEXELS: f64 = 0.25;
+/// Places of samples from a texel's middle, texels: each has a column and a row of its own.
+const SAMPLES_AT: [[f64; 2]; SAMPLES] = [[-0.375, -0.125], [-0.125, 0.375], [0.125, -0.375], [0.375, 0.125]];
 
 /// Draws tiles; one for each renderer.
 pub(super) struct Painter {
     canvas: Visibility,
+    /// Sums of the heights of a texel's samples, and how many there are, see [`add_sample`].
+    sums: Vec<f32>,
+    seen: Vec<u32>,
     packed: Box<[u32]>,
     /// Tiles from a first to before an end, by column and row.
     parts: Vec<(usize, [i32; 2], [i32; 2])>,
@@ -32,6 +39,8 @@ impl Painter {
         let side = WINDOW_TILES as usize * TILE + 1;
         Self {
             canvas: Visibility::new(side, side),
+            sums: vec![0.0; side * side],
+            seen: vec![0; side * side],
             packed: vec![0; PACKED_ROWS * TILE].into_boxed_slice(),
             parts: Vec::new(),
         }
@@ -50,14 +59,14 @@ impl Painter {
             let (grain, first, end) = self.parts[at];
             let lattice = sun.lattice(grain);
             let corner = DVec2::new(f64::from(first[0]), f64::from(first[1])) * TILE as f64;
-            let frame = Frame { corner, ..lattice };
+            let frame = ShadowFrame { corner, ..lattice };
             // Of the neighbours one row and column more.
             let size = [0, 1].map(|k| (end[k] - first[k]) as usize * TILE + 1);
-            let anything = self.draw_part(scene, sun, &frame, Region { first: [0; 2], end: size });
+            let anything = self.draw_samples(level, (scene, sun), &frame, size);
             for row in first[1]..end[1] {
                 for column in first[0]..end[0] {
                     let texel = [(column - first[0]) as usize * TILE, (row - first[1]) as usize * TILE];
-                    let tile = if anything { self.tile(level, texel) } else { None };
+                    let tile = if anything { self.tile(level, texel, sun.steps_per_m) } else { None };
                     take((grain, row, column), tile.as_ref());
                     scene.sun_maps.keep(sun, (grain, row, column), tile);
                 }
@@ -66,11 +75,11 @@ impl Painter {
     }
 
     /// The tile whose first texel is at a place of the canvas; none where nothing stands.
-    fn tile(&mut self, level: Level, [column, row]: [usize; 2]) -> Option<Tile> {
+    fn tile(&mut self, level: Level, [column, row]: [usize; 2], steps_per_m: f32) -> Option<Tile> {
         let (width, _) = self.canvas.size();
         let from = row * width + column;
-        let (heights, classes) = (&self.canvas.inverse_depth[from..], &self.canvas.face[from..]);
-        if !pack_tile(level, heights, classes, width, &mut self.packed) {
+        let (sums, seen) = (&self.sums[from..], &self.seen[from..]);
+        if !pack_tile(level, sums, seen, width, steps_per_m, &mut self.packed) {
             return None;
         }
         let mut summary = [0; SUMMARY_SIDE * SUMMARY_SIDE];
@@ -78,8 +87,35 @@ impl Painter {
         Some(Tile { texels: Arc::new(Texels::of(&self.packed)), summary: Arc::new(summary) })
     }
 
+    /// Adds samples of everything that throws shadows up, in the first columns and rows; whether there is anything.
+    fn draw_samples(
+        &mut self,
+        level: Level,
+        (scene, sun): (&Scene, &Sun),
+        frame: &ShadowFrame,
+        [columns, rows]: [usize; 2],
+    ) -> bool {
+        let (width, _) = self.canvas.size();
+        let lines = (0..rows).map(|row| row * width..row * width + columns);
+        for line in lines.clone() {
+            self.sums[line.clone()].fill(0.0);
+            self.seen[line].fill(0);
+        }
+        for at in SAMPLES_AT {
+            let frame = ShadowFrame { corner: frame.corner + DVec2::from_array(at), ..*frame };
+            if !self.draw_part(scene, sun, &frame, SeenRegion { first: [0; 2], end: [columns, rows] }) {
+                return false;
+            }
+            for line in lines.clone() {
+                let (heights, classes) = (&self.canvas.inverse_depth[line.clone()], &self.canvas.face[line.clone()]);
+                add_sample(level, heights, classes, &mut self.sums[line.clone()], &mut self.seen[line]);
+            }
+        }
+        true
+    }
+
     /// Draws everything that throws shadows into a part of the canvas; whether there is anything.
-    fn draw_part(&mut self, scene: &Scene, sun: &Sun, frame: &Frame, part: Region) -> bool {
+    fn draw_part(&mut self, scene: &Scene, sun: &Sun, frame: &ShadowFrame, part: SeenRegion) -> bool {
         self.canvas.clear_part(part.first, part.end);
         if let Some(mesh) = scene.lit_mesh() {
             return self.draw_mesh(mesh, frame, sun.to_sun, part);
@@ -109,7 +145,7 @@ impl Painter {
     }
 
     /// Triangles of a lit mesh throw shadows in the place of boxes and models, those of cut-outs as leaves do.
-    fn draw_mesh(&mut self, own: &SceneMesh, frame: &Frame, to_sun: DVec3, part: Region) -> bool {
+    fn draw_mesh(&mut self, own: &SceneMesh, frame: &ShadowFrame, to_sun: DVec3, part: SeenRegion) -> bool {
         let mut anything = false;
         for cluster in &own.clusters {
             if frame.misses(&part, cluster.center_in_world, cluster.half_bounds_m) {
@@ -132,7 +168,7 @@ impl Painter {
     }
 
     /// Both sides of a model's triangles throw shadows.
-    fn draw_props(&mut self, scene: &Scene, frame: &Frame, to_sun: DVec3, part: Region) -> bool {
+    fn draw_props(&mut self, scene: &Scene, frame: &ShadowFrame, to_sun: DVec3, part: SeenRegion) -> bool {
         let mut anything = false;
         for prop in &scene.props.props {
             if frame.misses(&part, prop.center_in_world, prop.half_bounds_m) {
@@ -176,7 +212,7 @@ fn join(places: &mut [TilePlace], parts: &mut Vec<(usize, [i32; 2], [i32; 2])>) 
 /// Draws a face that the sun shines on, where a part of the map needs it: its height is affine over the sheared ground.
 pub(super) fn draw(
     map: &mut Visibility,
-    (frame, part): (&Frame, Region),
+    (frame, part): (&ShadowFrame, SeenRegion),
     to_sun: DVec3,
     normal: DVec3,
     corners: &[DVec3],
@@ -200,6 +236,32 @@ pub(super) fn draw(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cosfly_domain::{Obstacle, OrientedBox, Town};
+    use cosfly_frames::{Seed, real};
+    use cosfly_materials::vector::Vec3;
+
+    #[test]
+    fn edges_of_shadows_at_a_slant_are_no_stairs() {
+        let yaw_rad = -0.1;
+        let (center_in_world, half_extents_m) = (DVec3::new(-26.0, 16.0, 8.0), DVec3::new(20.0, 20.0, 8.0));
+        let shape = OrientedBox { center_in_world, half_extents_m, yaw_rad };
+        let house = Obstacle { shape, kind: ObstacleKind::Building, object_id: 0, synthetic: false };
+        let town = Town { obstacles: vec![house], ..Town::default() };
+        let sun = Sun::new(Vec3::new(0.0, 0.5, 0.8).unit(), [0.0, 16.0]);
+        let mut painter = Painter::new();
+        painter.draw(Level::best(), (&Scene::new(&town, Seed([1; 32])), &sun), &mut [(0, 0, 0)], |_, _| ());
+        // The roof's edge, whose shadow runs along the light but for its slant.
+        let (sin, cos) = real::sin_cos(yaw_rad);
+        let edge_at = center_in_world + 20.0 * DVec3::new(cos, sin, 0.0);
+        for (row, texels) in (0..).zip(painter.packed.chunks(TILE).take(TILE)) {
+            let share = |texel: u32| if texel == 0 { 0.0 } else { 0.25 + 0.125 * f64::from(texel & 6) };
+            let dark: f64 = texels.iter().map(|texel| share(texel & 0xffff)).sum();
+            let y = 0.1 * (f64::from(row) + 0.5) + 16.0 * 0.625;
+            let x = edge_at.x - sin / cos * (y - edge_at.y);
+            let exact = TILE as f64 + x / 0.1;
+            assert!((dark - exact).abs() < 0.2, "row {row}: {dark} texels are dark, not {exact}");
+        }
+    }
 
     #[test]
     fn tiles_join_to_rectangles_that_hold_each_of_them_once() {

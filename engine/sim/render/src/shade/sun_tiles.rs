@@ -1,9 +1,9 @@
 //! Tiles of a town's shadow map, kept for all cameras of the town under the suns of late.
 
-use super::shadow_frame::Frame;
-use super::sunlight::{SUMMARY_SIDE, Texels};
+use super::sunlight::{LOWEST_M, MOST_STEPS, SUMMARY_SIDE, Texels};
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_materials::vector::Vec3;
+use cosfly_raster::shadow_frame::ShadowFrame;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -17,24 +17,28 @@ const MOST_TILES: usize = 1024;
 pub(super) struct Sun {
     pub(super) to_sun: DVec3,
     reference_m: f64,
+    /// Steps of heights in a metre.
+    pub(super) steps_per_m: f32,
 }
 
 impl Sun {
-    /// The sun in a direction, over a town whose lowest place is at `lowest_m`.
-    pub(super) fn new(to_sun: Vec3, lowest_m: f64) -> Self {
+    /// The sun in a direction, over a town whose lowest and highest places are at these heights.
+    pub(super) fn new(to_sun: Vec3, [lowest_m, highest_m]: [f64; 2]) -> Self {
         let to_sun = DVec3::new(f64::from(to_sun.x), f64::from(to_sun.y), f64::from(to_sun.z));
         let lowest_m = if lowest_m.is_finite() { lowest_m } else { 0.0 };
-        Self { to_sun, reference_m: (lowest_m / 8.0).floor() * 8.0 }
+        let reference_m = (lowest_m / 8.0).floor() * 8.0;
+        let is_high = (highest_m - reference_m + LOWEST_M) * 16.0 > f64::from(MOST_STEPS);
+        Self { to_sun, reference_m, steps_per_m: if is_high { 8.0 } else { 16.0 } }
     }
 
     /// The lattice of the texels of a size.
-    pub(super) fn lattice(&self, grain: usize) -> Frame {
+    pub(super) fn lattice(&self, grain: usize) -> ShadowFrame {
         let flat = self.to_sun.truncate();
         let shear = flat / self.to_sun.z;
         let along = if flat.length() > 1e-6 { flat.normalize() } else { DVec2::Y };
         // Coarse texels are long where shadows are; the finest are square.
         let stretch = if grain == 0 { 1.0 } else { shear.length().clamp(1.0, 3.0) };
-        Frame {
+        ShadowFrame {
             corner: DVec2::ZERO,
             reference_m: self.reference_m,
             shear,
@@ -126,7 +130,7 @@ mod tests {
     #[test]
     fn finest_texels_are_a_tenth_of_a_metre_whatever_the_sun() {
         for height in [0.2f32, 0.7, 1.0] {
-            let sun = Sun::new(Vec3::new(0.6, -0.5, height).unit(), -3.0);
+            let sun = Sun::new(Vec3::new(0.6, -0.5, height).unit(), [-3.0, 300.0]);
             assert!(sun.lattice(0).texels_m.max_element() <= 0.1 && sun.reference_m == -8.0);
             assert!(sun.lattice(1).texels_m.x == 0.2);
         }

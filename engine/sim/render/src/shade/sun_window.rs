@@ -1,8 +1,6 @@
 //! A view's window into the town's shadow map: tiles around what the camera looks at, fine ones near the target.
 
 use super::seen_places::SeenPlaces;
-use super::shadow_frame::Frame;
-use super::shadow_region::{Region, for_seen_points};
 use super::sun_map::Painter;
 use super::sun_tiles::{Sun, TEXEL_M, Tile, TilePlace};
 use super::sunlight::{
@@ -14,6 +12,8 @@ use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_materials::pattern::fixed_size;
 use cosfly_raster::eye::Eye;
+use cosfly_raster::seen_region::{SeenRegion, for_seen_points};
+use cosfly_raster::shadow_frame::ShadowFrame;
 use cosfly_raster::visibility::{Screen, Visibility};
 use std::sync::Arc;
 
@@ -41,7 +41,7 @@ pub(super) struct Window {
 /// Part of a window: the texels of one size.
 #[derive(Clone, Copy)]
 struct Part {
-    lattice: Frame,
+    lattice: ShadowFrame,
     /// Tiles.
     first: [i32; 2],
     end: [i32; 2],
@@ -151,7 +151,7 @@ impl Window {
                 painter.get_or_insert_with(Painter::new).draw(level, (scene, sun), wanted, &mut take);
             }
         }
-        places(&parts, scene.season)
+        places(&parts, scene.season, sun.steps_per_m)
     }
 }
 
@@ -168,7 +168,7 @@ fn on_ground(scene: &Scene, eye: &Eye, ahead_m: f64) -> DVec3 {
 }
 
 /// The part of the lattice that a view may need, within the window around a focus: it depends on the frame alone.
-fn part_seen(lattice: &Frame, focus: DVec3, (eye, screen): (&Eye, &Screen), lowest_m: f64) -> Part {
+fn part_seen(lattice: &ShadowFrame, focus: DVec3, (eye, screen): (&Eye, &Screen), lowest_m: f64) -> Part {
     let side = WINDOW_TILES as usize * TILE;
     let margin = MARGIN_M / lattice.texels_m;
     let middle = (DVec2::from_array(lattice.place(focus)) / TILE as f64).round();
@@ -179,7 +179,7 @@ fn part_seen(lattice: &Frame, focus: DVec3, (eye, screen): (&Eye, &Screen), lowe
         low = low.min(place - margin);
         high = high.max(place + margin);
     });
-    let region = Region::around(low, high, side, TILE);
+    let region = SeenRegion::around(low, high, side, TILE);
     let tiles = |texels: [usize; 2]| [0, 1].map(|k| corner[k] as i32 + (texels[k] / TILE) as i32);
     Part { lattice: *lattice, first: tiles(region.first), end: tiles(region.end) }
 }
@@ -200,13 +200,13 @@ fn put_summary(slot: usize, of_tile: Option<&[u32]>, summary: &mut SummaryMap) {
 
 /// Places of the windows' parts for the kernels: coordinates of the finest texels from near the view, and from them those of
 /// each size, counted from a corner that is a whole number of windows from the lattice's.
-fn places(parts: &[Part; GRAINS], season: Season) -> Places {
+fn places(parts: &[Part; GRAINS], season: Season, steps_per_m: f32) -> Places {
     let side = f64::from(WINDOW_TILES) * TILE as f64;
     let finest = parts[0].lattice;
     let seen = parts.iter().find(|part| part.first[0] < part.end[0]).unwrap_or(&parts[0]);
     let near = seen.metres(seen.first, seen.end)[0] / finest.texels_m;
     let corner = (near / side).floor() * side;
-    let frame = Frame { corner, ..finest };
+    let frame = ShadowFrame { corner, ..finest };
     let grains = parts.map(|part| {
         let first = DVec2::new(part.first[0].into(), part.first[1].into()) * TILE as f64;
         let base = (first / side).floor() * side;
@@ -224,6 +224,7 @@ fn places(parts: &[Part; GRAINS], season: Season) -> Places {
     Places {
         rows: frame.rows(),
         base_m: (LOWEST_M - finest.reference_m) as f32,
+        steps_per_m,
         texel_m: TEXEL_M as f32,
         corner_m: (frame.corner * frame.texels_m).as_vec2().to_array(),
         grains,
@@ -249,7 +250,7 @@ mod tests {
             roll_rad: 0.0,
         };
         for (number, height) in [0.25f32, 0.6, 0.95].into_iter().enumerate() {
-            let lattice = Sun::new(Vec3::new(0.7, -0.4, height).unit(), 0.0).lattice(0);
+            let lattice = Sun::new(Vec3::new(0.7, -0.4, height).unit(), [0.0; 2]).lattice(0);
             for step in 0..40 {
                 let target = DVec3::new(1.7 * f64::from(step), 3.1 * number as f64, 0.0);
                 let eye = Eye::new(&down(target.x));

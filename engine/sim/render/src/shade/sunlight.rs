@@ -1,10 +1,10 @@
 //! Shadow maps packed for look-up, and the share of the sun's light at each pixel's place.
 
-use super::shadow_frame::DEPTH_M;
 use cosfly_frames::simd_kernel;
 use cosfly_materials::lanes::{Block, FOUR, PixelLane, WIDE, get};
 use cosfly_materials::pattern::{NoiseTexture, Noises, floor_int, least, lerp, most, one_if, smoothstep};
 use cosfly_materials::vector::Vec3;
+use cosfly_raster::shadow_frame::DEPTH_M;
 use std::sync::Arc;
 
 /// Sizes of texels.
@@ -38,6 +38,8 @@ pub(super) struct Places {
     /// Coordinates of the finest texels, from a corner near the view.
     pub(super) rows: [[f32; 4]; 2],
     pub(super) base_m: f32,
+    /// Steps of the heights in a metre.
+    pub(super) steps_per_m: f32,
     /// Size of the finest texels, metres.
     pub(super) texel_m: f32,
     /// The corner over the sheared ground, metres.
@@ -59,8 +61,9 @@ pub(super) struct Grain {
     pub(super) high: [f32; 2],
 }
 
-/// Texels of a tile. A number holds a texel in its low half and the one to the right in its high half: height above
-/// [`LOWEST_M`] below the reference in steps of 1/32 m, times two, plus one for leaves. In the order of [`in_tile`].
+/// Texels of a tile. A number holds a texel in its low half and the one to the right in its high half: one for leaves, the number
+/// of its samples that are covered, less one, times two, and eight times the height above [`LOWEST_M`] below the reference in steps
+/// of the sun. In the order of [`in_tile`].
 #[repr(align(64))]
 pub(super) struct Texels(pub(super) [u32; TILE * TILE]);
 /// Windows of all sizes of texels, one after the other: their tiles.
@@ -79,18 +82,35 @@ const SQUARES: usize = WINDOW_TILES as usize * SUMMARY_SIDE;
 /// Bits of a texel's column or row within its square.
 const IN_SQUARE: u32 = 2;
 /// Nothing lower than this below the reference casts a shadow.
-pub(super) const LOWEST_M: f64 = 200.0;
-/// Steps per metre of packed heights.
-const STEPS_PER_M: f32 = 32.0;
+pub(super) const LOWEST_M: f64 = 16.0;
+/// Most steps of a town's heights.
+pub(super) const MOST_STEPS: f32 = 8191.0;
+/// Most steps of a figure's heights, and steps in a metre.
+const FIGURE_STEPS: [f32; 2] = [65535.0, 32.0];
+/// Samples of a texel.
+pub(super) const SAMPLES: usize = 4;
+/// Bits of a town's texel below its height, and what they hold where all samples are covered, and not by leaves.
+const BELOW_HEIGHT: u32 = 3;
+const FULL: u32 = 6;
 
-/// A texel's height and class.
+/// Height in steps above the lowest.
 #[inline(always)]
-fn packed_texel(height_m: f32, class: u32) -> u32 {
+fn in_steps(height_m: f32, most_steps: f32, steps_per_m: f32) -> u32 {
     let lowest = (DEPTH_M - LOWEST_M) as f32;
     // Adding 2^23 leaves the nearest whole number in the low bits.
-    let steps = least(most((height_m - lowest) * STEPS_PER_M, 0.0), 32767.0) + 8_388_608.0;
-    // Classes count where something stands.
-    ((steps.to_bits() & 0x7fff) << 1) | u32::from((class == LEAVES) & (height_m > 0.0))
+    let steps = least(most((height_m - lowest) * steps_per_m, 0.0), most_steps) + 8_388_608.0;
+    steps.to_bits() & 0xffff
+}
+
+simd_kernel! {
+    /// Adds a sample of each texel of a row to the sums of their heights and to `seen`: number of samples, and eight for leaves.
+    pub(super) fn add_sample(heights: &[f32], classes: &[u32], sums: &mut [f32], seen: &mut [u32]) {
+        for (((height_m, class), sum), seen) in heights.iter().zip(classes).zip(sums).zip(seen) {
+            let is_covered = u32::from(*height_m > 0.0);
+            *sum += *height_m;
+            *seen = seen.wrapping_add(is_covered) | (is_covered & u32::from(*class == LEAVES)) << 3;
+        }
+    }
 }
 
 simd_kernel! {
@@ -99,7 +119,7 @@ simd_kernel! {
         let rows = heights.chunks_exact(FIGURE_SIDE).zip(packed.chunks_exact_mut(FIGURE_SIDE));
         for (heights, packed) in rows.take(side) {
             for (packed, height_m) in packed.iter_mut().zip(heights).take(side) {
-                *packed = packed_texel(*height_m, SOLID);
+                *packed = in_steps(*height_m, FIGURE_STEPS[0], FIGURE_STEPS[1]);
             }
             for column in 1..side.min(FIGURE_SIDE) {
                 packed[column.wrapping_sub(1)] |= packed[column] << 16;
@@ -110,20 +130,23 @@ simd_kernel! {
 
 simd_kernel! {
     /// Packs a tile from rows `width` apart, with the first row and column of the tiles below and to the right; whether
-    /// anything stands there.
-    pub(super) fn pack_tile(heights: &[f32], classes: &[u32], width: usize, packed: &mut [u32]) -> bool {
+    /// anything stands there. Heights are the means of the samples: that of a flat face is right in the texel's middle.
+    pub(super) fn pack_tile(sums: &[f32], seen: &[u32], width: usize, steps_per_m: f32, packed: &mut [u32]) -> bool {
         let mut anything = 0u32;
         for (row, packed) in packed.chunks_exact_mut(TILE).enumerate().take(PACKED_ROWS) {
             let from = row.wrapping_mul(width);
-            let (Some(heights), Some(classes)) = (
-                heights.get(from..).and_then(|rest| rest.first_chunk::<PACKED_ROWS>()),
-                classes.get(from..).and_then(|rest| rest.first_chunk::<PACKED_ROWS>()),
+            let (Some(sums), Some(seen)) = (
+                sums.get(from..).and_then(|rest| rest.first_chunk::<PACKED_ROWS>()),
+                seen.get(from..).and_then(|rest| rest.first_chunk::<PACKED_ROWS>()),
             ) else {
                 return false;
             };
             let mut single = [0u32; PACKED_ROWS];
-            for ((single, height_m), class) in single.iter_mut().zip(heights).zip(classes) {
-                *single = packed_texel(*height_m, *class);
+            for ((single, sum), seen) in single.iter_mut().zip(sums).zip(seen) {
+                let covered = seen & 7;
+                let steps = in_steps(*sum / most(covered as i32 as f32, 1.0), MOST_STEPS, steps_per_m);
+                let texel = steps << BELOW_HEIGHT | covered.wrapping_sub(1) << 1 | seen >> 3;
+                *single = texel & 0u32.wrapping_sub(u32::from(covered > 0));
             }
             for (k, packed) in packed.iter_mut().enumerate().take(TILE) {
                 *packed = single[k] | single[k.wrapping_add(1)] << 16;
@@ -161,13 +184,14 @@ simd_kernel! {
                     };
                     for k in 0..TEXELS {
                         for half in [texels[k] & 0xffff, texels[k] >> 16] {
-                            let low = if half & 1 == LEAVES { 0 } else { half >> 1 };
+                            let height = half >> BELOW_HEIGHT;
+                            let low = if half & ((1 << BELOW_HEIGHT) - 1) == FULL { height } else { 0 };
                             least[k] = least[k].min(low);
-                            greatest[k] = greatest[k].max(half >> 1);
+                            greatest[k] = greatest[k].max(height);
                         }
                     }
                 }
-                let least = least.into_iter().fold(0x7fff, u32::min);
+                let least = least.into_iter().fold(MOST_STEPS as u32, u32::min);
                 let greatest = greatest.into_iter().fold(0, u32::max);
                 summary[row * SUMMARY_SIDE + column] = least | greatest << 16;
             }
@@ -194,7 +218,7 @@ simd_kernel! {
                     break;
                 }
                 let (spots, sunlight) = (spots(&four[pixel], &places), &mut four[pixel].sunlight);
-                let unknown = lit_by_squares(sunlight, &spots, summary);
+                let unknown = lit_by_squares(sunlight, &spots, summary, places.steps_per_m);
                 if unknown != [0; WIDE] {
                     alike &= !lit_through_leaves(sunlight, &unknown, &spots, map, &places, noise);
                 }
@@ -265,7 +289,7 @@ fn spots(block: &Block, places: &Places) -> Spots {
 /// Looks a block's sunlight up in whole squares, which tells the same wherever a square is all above or all below the
 /// places; 1 for those of which it does not tell.
 #[inline(always)]
-fn lit_by_squares(sunlight: &mut PixelLane, spots: &Spots, summary: &SummaryMap) -> [u32; WIDE] {
+fn lit_by_squares(sunlight: &mut PixelLane, spots: &Spots, summary: &SummaryMap, steps_per_m: f32) -> [u32; WIDE] {
     const BITS: u32 = SQUARES.trailing_zeros();
     const MASK: u32 = SQUARES as u32 - 1;
     let mut unknown = [0u32; WIDE];
@@ -274,7 +298,7 @@ fn lit_by_squares(sunlight: &mut PixelLane, spots: &Spots, summary: &SummaryMap)
         let row = floor_int(spots.v[k] - 0.5) as u32 >> IN_SQUARE;
         let at = (spots.grain[k] << (2 * BITS)) | ((row & MASK) << BITS) | (column & MASK);
         let square = summary[at as usize & (GRAINS * SQUARES * SQUARES - 1)];
-        let steps = spots.height_m[k] * STEPS_PER_M;
+        let steps = spots.height_m[k] * steps_per_m;
         let lit = (spots.known[k] == 0) | ((square >> 16) as i32 as f32 <= steps);
         let dark = (square & 0xffff) as i32 as f32 > steps;
         *sunlight = one_if(lit);
@@ -316,7 +340,15 @@ fn lit_through_leaves(
     for k in 0..WIDE {
         let (u, v) = (spots.u[k] - 0.5, spots.v[k] - 0.5);
         let (fx, fy) = (u - floor_int(u) as f32, v - floor_int(v) as f32);
-        let (dark, leaves) = between(found[0][k], found[1][k], [fx, fy], spots.height_m[k]);
+        // Texels from this on are higher.
+        let higher = floor_int(spots.height_m[k] * places.steps_per_m).wrapping_add(1) << BELOW_HEIGHT;
+        let dark = between(found[0][k], found[1][k], [fx, fy], |texel| {
+            let covered = (texel & FULL) as i32 as f32 * (0.5 / SAMPLES as f32) + 1.0 / SAMPLES as f32;
+            if texel as i32 >= higher { covered } else { 0.0 }
+        });
+        let either = found[0][k] | found[1][k];
+        // Leaves at one of the four: no dark line around the flecks.
+        let leaves = ((either | (either >> 16)) & 1) as i32 as f32;
         let is_unknown = unknown[k] as i32 as f32;
         // Nothing so far where it is unknown.
         sunlight[k] += is_unknown * (1.0 - dark);
@@ -404,20 +436,13 @@ fn figure_darkness(map: &FigureMap, limit: f32, u: f32, v: f32, height_m: f32) -
     let at = (row as u32).wrapping_mul(FIGURE_SIDE as u32).wrapping_add(column as u32);
     let upper = map[at as usize & (FIGURE_TEXELS - 1)];
     let lower = map[at.wrapping_add(FIGURE_SIDE as u32) as usize & (FIGURE_TEXELS - 1)];
-    let (dark, _) = between(upper, lower, [u - column as f32, v - row as f32], height_m);
+    let steps = height_m * FIGURE_STEPS[1];
+    let dark = between(upper, lower, [u - column as f32, v - row as f32], |texel| one_if(texel as i32 as f32 > steps));
     if inside { dark } else { 0.0 }
 }
 
-/// The share of four texels above the height at a place between them, and 1 when leaves are at one of them: no dark line around the flecks.
+/// The share of four texels that is `dark`, at a place between them.
 #[inline(always)]
-fn between(upper: u32, lower: u32, [fx, fy]: [f32; 2], height_m: f32) -> (f32, f32) {
-    let steps = height_m * STEPS_PER_M;
-    let above = |texel: u32| one_if((texel >> 1) as i32 as f32 > steps);
-    let dark = lerp(
-        lerp(above(upper & 0xffff), above(upper >> 16), fx),
-        lerp(above(lower & 0xffff), above(lower >> 16), fx),
-        fy,
-    );
-    let either = upper | lower;
-    (dark, ((either | (either >> 16)) & 1) as i32 as f32)
+fn between(upper: u32, lower: u32, [fx, fy]: [f32; 2], dark: impl Fn(u32) -> f32) -> f32 {
+    lerp(lerp(dark(upper & 0xffff), dark(upper >> 16), fx), lerp(dark(lower & 0xffff), dark(lower >> 16), fx), fy)
 }

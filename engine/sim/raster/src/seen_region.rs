@@ -1,21 +1,23 @@
-//! Which part of a shadow map a view can need.
+//! Part of a map over the ground that a view can need, such as a map of shadows.
 
+use crate::eye::Eye;
+use crate::visibility::Screen;
 use cosfly_frames::{DVec2, DVec3};
-use cosfly_raster::eye::Eye;
-use cosfly_raster::visibility::Screen;
 
-/// Shadows on what is farther ahead are left out, metres.
-pub(super) const FAR_M: f64 = 600.0;
+/// Reach of a view ahead, metres.
+pub const FAR_M: f64 = 600.0;
 
-/// A rectangle of texels: first ones, and ones past the last, by column and row.
+/// Rectangle of texels, by column and row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Region {
+pub struct SeenRegion {
+    /// First texels.
     pub first: [usize; 2],
+    /// Texels past the last.
     pub end: [usize; 2],
 }
 
-impl Region {
-    /// The least rectangle of whole steps, within a map, around places between `low` and `high` (texels).
+impl SeenRegion {
+    /// Least rectangle of whole steps, within a map, around places between `low` and `high` (texels).
     pub fn around(low: DVec2, high: DVec2, side: usize, step: usize) -> Self {
         let size = step as f64;
         let inside = |steps: f64| ((steps.clamp(0.0, side as f64) as usize) * step).min(side);
@@ -85,9 +87,9 @@ mod tests {
 
     #[test]
     fn regions_are_whole_steps_within_the_map() {
-        let region = Region::around(DVec2::new(-40.0, 130.0), DVec2::new(200.0, 300.0), 1024, 128);
-        assert_eq!(region, Region { first: [0, 128], end: [256, 384] });
-        let nothing = Region::around(DVec2::new(-9.0, 5.0), DVec2::new(-1.0, 6.0), 1024, 128);
-        assert_eq!(nothing, Region::around(DVec2::INFINITY, DVec2::NEG_INFINITY, 1024, 128));
+        let region = SeenRegion::around(DVec2::new(-40.0, 130.0), DVec2::new(200.0, 300.0), 1024, 128);
+        assert_eq!(region, SeenRegion { first: [0, 128], end: [256, 384] });
+        let nothing = SeenRegion::around(DVec2::new(-9.0, 5.0), DVec2::new(-1.0, 6.0), 1024, 128);
+        assert_eq!(nothing, SeenRegion::around(DVec2::INFINITY, DVec2::NEG_INFINITY, 1024, 128));
     }
 }
