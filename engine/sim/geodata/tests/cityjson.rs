@@ -88,6 +88,32 @@ fn trees_are_templates_at_their_place_and_scale() {
     assert!((low.z - 1.0).abs() < 1e-9 && (top_m - 9.0).abs() < 1e-9, "{low} {top_m}");
 }
 
+/// A stand of plants that rises to two points of 8 m, 20 m apart.
+const STAND: &str = r#"{
+  "type": "CityJSON", "version": "2.0",
+  "transform": { "scale": [1.0, 1.0, 1.0], "translate": [0.0, 0.0, 0.0] },
+  "CityObjects": { "stand": { "type": "PlantCover", "geometry": [{ "type": "MultiSurface", "lod": "2", "boundaries": [
+    [[0, 1, 4]], [[1, 2, 4]], [[2, 3, 4]], [[3, 0, 4]], [[5, 6, 9]], [[6, 7, 9]], [[7, 8, 9]], [[8, 5, 9]]
+  ] }] } },
+  "vertices": [
+    [0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [1, 1, 8],
+    [20, 0, 0], [22, 0, 0], [22, 2, 0], [20, 2, 0], [21, 1, 8]
+  ]
+}"#;
+
+#[test]
+fn every_tree_of_a_stand_is_an_object_of_its_own() {
+    let (town, _) = read(STAND).unwrap();
+    let of_kind = |kind| {
+        let boxes = town.obstacles.iter().filter(move |one| one.kind == kind);
+        boxes.map(|one| (one.shape.center_in_world.x.round(), one.object_id)).collect::<Vec<_>>()
+    };
+    let crowns = of_kind(ObstacleKind::TreeCrown);
+    assert_eq!(crowns.len(), 2);
+    assert_ne!(crowns[0].1, crowns[1].1);
+    assert_eq!(of_kind(ObstacleKind::TreeTrunk), crowns);
+}
+
 #[test]
 fn attributes_that_are_not_believed_are_told_of_with_what_is_taken() {
     let shed = |attributes: &str| read(&with("\"measuredHeight\": 3.5", attributes)).unwrap();

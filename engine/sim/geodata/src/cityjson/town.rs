@@ -262,8 +262,19 @@ impl Parts {
             self.tally.coarse.add(&solid);
             boxes.extend(solid.boxes);
         }
+        // Every tree is an object of its own: round crowns are drawn on it. Its trunk, where it has one, comes before its crown.
+        let mut under = None;
         for (kind, shape) in plants::grown(boxes, low.z) {
-            self.push(kind, object_id, [shape]);
+            let own_id = match (kind, under.take()) {
+                (ObstacleKind::Bush, _) => object_id,
+                (ObstacleKind::TreeCrown, Some(trunk_id)) => trunk_id,
+                _ => {
+                    self.next_id += 1;
+                    self.next_id - 1
+                }
+            };
+            under = (kind == ObstacleKind::TreeTrunk).then_some(own_id);
+            self.push(kind, own_id, [shape]);
         }
         Ok(())
     }
