@@ -1,4 +1,4 @@
-//! Benches, market stalls, hedges and things that their measures tell, drawn of parts that lie within their boxes.
+//! Benches, market stalls, hedges, thickets and things that their measures tell, drawn of parts that lie within their boxes.
 
 use crate::boats::boat;
 use crate::containers::stack;
@@ -27,7 +27,10 @@ const AWNING_M: f64 = 0.45;
 /// A bush that is so many times as long as deep is a hedge, and the length of each of its shrubs, in the greater of depth and height.
 const HEDGE: f64 = 3.0;
 const SHRUB: f64 = 1.2;
-/// Most shrubs of a hedge.
+/// A bush that is so many times as deep as high is a thicket, and the least height that its shrubs are as wide as, metres.
+const THICKET: f64 = 2.5;
+const LOW_SHRUB_M: f64 = 0.8;
+/// Most shrubs of a hedge or thicket, about.
 const MOST_SHRUBS: f64 = 60.0;
 
 /// Draws all boxes of benches, stalls, hedges and known measures as such; those of other sizes stay boxes.
@@ -43,7 +46,14 @@ pub fn furnish(boxes: &mut Vec<SceneBox>, ground: &GroundKinds) {
         match b.kind {
             ObstacleKind::Bench if plan.is_within(BENCH_M) => plan.bench(),
             ObstacleKind::Stall if plan.is_within(STALL_M) => plan.stall(),
-            ObstacleKind::Bush if plan.size_m.x >= HEDGE * plan.size_m.y => plan.hedge(),
+            ObstacleKind::Bush if !is_cut(&b) && plan.size_m.y >= THICKET * plan.size_m.z => {
+                let side_m = SHRUB * plan.size_m.z.max(LOW_SHRUB_M);
+                plan.shrubs(side_m.max((plan.size_m.x * plan.size_m.y / MOST_SHRUBS).sqrt()))
+            }
+            ObstacleKind::Bush if plan.size_m.x >= HEDGE * plan.size_m.y => {
+                let side_m = SHRUB * plan.size_m.y.max(plan.size_m.z);
+                plan.shrubs(side_m.max(plan.size_m.x / MOST_SHRUBS))
+            }
             ObstacleKind::Static => {
                 let is_afloat = || ground.is_water(b.center_in_world.truncate());
                 let parts =
@@ -54,6 +64,12 @@ pub fn furnish(boxes: &mut Vec<SceneBox>, ground: &GroundKinds) {
         }
     };
     *boxes = std::mem::take(boxes).into_iter().flat_map(parts).collect();
+}
+
+/// Whether corners of a box were moved, as [`crate::round_crowns`] does.
+fn is_cut(b: &SceneBox) -> bool {
+    let half_m = b.half_extents_m.as_dvec3().length();
+    b.corners_in_world.iter().any(|corner| (corner.distance(b.center_in_world) - half_m).abs() > 1e-3)
 }
 
 impl Plan<'_> {
@@ -72,17 +88,19 @@ impl Plan<'_> {
         ]
     }
 
-    /// Shrubs in a row: leaves on a round crown as long as a hedge would be drawn out to streaks.
-    fn hedge(&self) -> Vec<SceneBox> {
+    /// Shrubs in rows, about as long and as deep as `side_m`: leaves on a round crown as large as a hedge or a thicket would be
+    /// drawn out to streaks.
+    fn shrubs(&self, side_m: f64) -> Vec<SceneBox> {
         let DVec3 { x: length, y: depth, z: height } = self.size_m;
-        let count = (length / (SHRUB * depth.max(height))).round().clamp(1.0, MOST_SHRUBS);
-        let shrub = |number: u32| {
-            let [from, to] = [number, number + 1].map(|end| length * f64::from(end) / count);
-            let mut shrub = self.part(ObstacleKind::Bush, [from, 0.0, 0.0], [to, depth, height]);
+        let [columns, rows] = [length, depth].map(|m| (m / side_m).round().clamp(1.0, MOST_SHRUBS) as u32);
+        let ends = |number: u32, of: u32, m: f64| [number, number + 1].map(|end| m * f64::from(end) / f64::from(of));
+        let shrub = |column: u32, row: u32| {
+            let ([left, right], [near, far]) = (ends(column, columns, length), ends(row, rows, depth));
+            let mut shrub = self.part(ObstacleKind::Bush, [left, near, 0.0], [right, far, height]);
             shrub.whole = [shrub.center_in_world, shrub.half_bounds_m].map(|v| v.as_vec3a());
             shrub
         };
-        (0..count as u32).map(shrub).collect()
+        (0..rows).flat_map(|row| (0..columns).map(move |column| shrub(column, row)).collect::<Vec<_>>()).collect()
     }
 
     /// An awning with a ridge on four posts, under it a table with crates.
@@ -150,6 +168,8 @@ mod tests {
             (ObstacleKind::Stall, [3.2, 2.0, 2.4], false),
             (ObstacleKind::Stall, [2.2, 3.2, 2.5], false),
             (ObstacleKind::Bush, [12.0, 0.8, 1.5], false),
+            (ObstacleKind::Bush, [12.0, 11.0, 2.0], false),
+            (ObstacleKind::Bush, [3.0, 10.0, 0.6], false),
             (ObstacleKind::Static, [12.2, 2.44, 2.6], false),
             (ObstacleKind::Static, [2.44, 12.2, 7.8], false),
             (ObstacleKind::Static, [6.06, 2.44, 5.2], false),
@@ -232,6 +252,19 @@ mod tests {
                 .map(|part| part.center_in_world.y * side)
                 .collect();
             assert!(panes.len() == 3 && panes.iter().all(|away_m| *away_m < -0.3), "{side}: {panes:?}");
+        }
+    }
+
+    #[test]
+    fn leaves_of_hedges_and_thickets_are_on_shrubs_that_are_no_streaks() {
+        for size_m in [[12.0, 0.8, 1.5], [12.0, 12.0, 2.5], [4.0, 9.0, 1.0], [12.0, 12.0, 0.5]] {
+            let (_, shrubs) = drawn(ObstacleKind::Bush, size_m, false);
+            assert!((4..80).contains(&shrubs.len()), "{size_m:?}: {}", shrubs.len());
+            for shrub in shrubs {
+                let side_m = 2.0 * f64::from(shrub.whole[1].truncate().max_element());
+                // Turned by 0.6: bounds of a square are 1.4 times as wide.
+                assert!(side_m <= 1.4 * 1.3 * size_m[2].max(1.2), "{size_m:?}: {side_m}");
+            }
         }
     }
 
