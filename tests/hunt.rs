@@ -79,7 +79,7 @@ fn what_is_wrong_is_told() {
     };
     refused(&["folow"], 3, "did you mean `follow`?");
     refused(&["follow", "--vary", "stages.walkers.frames"], 3, "is no range: it has no `=`");
-    refused(&["follow", "--vary", "stages.figure.frames=10..20"], 3, "did you mean `walkers`?");
+    refused(&["follow", "--vary", "stages.walker.frames=10..20"], 3, "did you mean `walkers`?");
     refused(&["follow", "--vary", "tool.fly.latency_ms=0..9000", "--pool", "9"], 3, "latency_ms");
     refused(&["follow", "--budget", "0"], 2, "--budget");
     refused(&["follow", "--seed", "9223372036854775808"], 2, "--seed");
