@@ -167,10 +167,15 @@ fn nothing_to_score(file: &str, flights: &Flights, windows: &WindowSet, joined: 
         Some((flight, _)) => {
             let zero = vec!["[0, 0, 0, 0, 0, 0]"; windows.shape.horizon].join(", ");
             let id = &flights.rows[*flight].trajectory_id;
-            refusal.hint(format!(
+            refusal = refusal.hint(format!(
                 "a row that fits is {{\"trajectory_id\": \"{id}\", \"frame\": 0, \"waypoint_deltas\": [{zero}]}}"
-            ))
-            .hint("`--history`, `--horizon`, `--stride` and `--input` cut other windows: give those of the predictions")
+            ));
+            match joined.problems.iter().any(|problem| matches!(problem.kind, "length" | "no-window")) {
+                true => {
+                    refusal.hint("`--history`, `--horizon` and `--stride` cut other windows: give the predictions' own")
+                }
+                false => refusal,
+            }
         }
         None => refusal,
     }
