@@ -209,6 +209,9 @@ fn measured_bytes(plan: &Plan<'_>, stage: usize) -> Option<u64> {
     let numbered = plan.stages[stage].finished.iter().enumerate();
     let finished = numbered.filter_map(|(item, found)| Some((item, &found.as_ref()?.record.outputs)));
     let finished: Vec<(usize, &Arc<Blobs>)> = finished.take(MEASURED).collect();
+    if finished.is_empty() {
+        return None; // before all that arrives is gone through
+    }
     let mut handed: BTreeSet<Digest> = BTreeSet::new();
     let mut hand = |arrival: &Arrival| {
         if let Some(found) = &plan.stages[arrival.stage].finished[arrival.item] {
@@ -224,7 +227,7 @@ fn measured_bytes(plan: &Plan<'_>, stage: usize) -> Option<u64> {
         }
     }
     let own = finished.iter().flat_map(|(_, blobs)| blobs.values()).filter(|blob| !handed.contains(&blob.digest));
-    own.fold(0, |sum: u64, blob| sum.saturating_add(blob.bytes)).checked_div(finished.len() as u64)
+    Some(own.fold(0, |sum: u64, blob| sum.saturating_add(blob.bytes)) / finished.len() as u64)
 }
 
 /// Bytes of an item of this length, as its stage states them.
