@@ -219,3 +219,46 @@ fn commands_that_are_told_can_be_pasted() {
     let page = std::fs::read_to_string(folder.path().join("my street/README.md")).expect("a page");
     assert!(page.starts_with("# my street\n") && page.contains("cosfly plan 'my street' "), "{page}");
 }
+
+/// Commands that make a recipe of their arguments: problems point to what was written, not to lines that nobody wrote.
+#[test]
+fn problems_of_arguments_point_to_the_arguments() {
+    let street = Street::new();
+    let refused = |arguments: &[&str]| cosfly(arguments).within(street.path()).run().stderr;
+    for command in [&["map", "inspect", "streets.xodr"][..], &["map", "convert", "streets.xodr", "--out", "a.glb"]] {
+        let told = refused(command);
+        assert!(
+            told.contains("there is no file `streets.xodr`") && told.contains("did you mean `street.xodr`?"),
+            "{told}"
+        );
+        assert!(told.contains("relative to the current folder") && !told.contains("-->"), "{told}");
+    }
+    let given = ["map", "inspect", "street.xodr"];
+    let told = refused(&[&given[..], &["--set", "simplify_m=1", "--set", "trim=3"]].concat());
+    assert!(told.contains("--> --set:1:1\n") && told.contains("1 | trim=3\n"), "{told}");
+    let table = "{ picture = 'mask.png', min_m = [0, 0], max_m = [9, 9] }";
+    let told = refused(&[&given[..], &["--area", "{ weight = 0.5, foo = 3 }"]].concat());
+    assert!(told.contains("--> --area:1:17\n") && told.contains("1 | { weight = 0.5, foo = 3 }\n"), "{told}");
+    let told =
+        refused(&[&given[..], &["--area", "{ polygon_m = [[0, 0], [9, 0], [9, 9]] }", "--area", table]].concat());
+    assert!(told.contains("there is no file `mask.png`") && told.contains("--> --area:1:13\n"), "{told}");
+}
+
+/// Files that others open by their ending.
+#[test]
+fn files_whose_ending_names_another_format_are_refused() {
+    let street = Street::new();
+    for line in [
+        "leaderboard entries --out page.pdf",
+        "map convert street.xodr --out town.obj",
+        "map inspect street.xodr --plan plan.jpg",
+        "map inspect street.xodr --plan plan",
+        "map tiles tileset.json --out town.gltf",
+        "view out/street --export page.png",
+    ] {
+        let printed = cosfly(&line.split(' ').collect::<Vec<_>>()).within(street.path()).run();
+        assert_eq!(printed.code, Some(2), "{line}: {}", printed.stderr);
+        assert!(printed.stderr.contains("the file must end in ."), "{line}: {}", printed.stderr);
+    }
+    cosfly(&["map", "inspect", "street.xodr", "--plan", "PLAN.PNG"]).within(street.path()).run_ok();
+}

@@ -168,7 +168,7 @@ fn a_town_is_converted_to_a_mesh_and_to_splats_that_lie_where_it_lies() {
         }
     }
     for (arguments, code, words) in [
-        (["--out", "town.obj", "--texel-m", "0.5"], 3, ".glb"),
+        (["--out", "town.obj", "--texel-m", "0.5"], 2, ".glb"),
         (["--out", "town.glb", "--texel-m", "5"], 3, "0.02 to 1"),
         (["--out", "town.ply", "--texel-m", "0.02"], 3, "bounds_m"),
         (["--out", "nowhere/town.ply", "--texel-m", "1"], 5, "nowhere"),

@@ -4,7 +4,7 @@ use crate::command::Refusals;
 use crate::console::Console;
 use crate::recipe_file;
 use clap::Args;
-use clap::builder::TypedValueParser;
+use clap::builder::{PathBufValueParser, TypedValueParser};
 use cosfly_diagnose::Diagnostic;
 use cosfly_fingerprint::Digest;
 use cosfly_recipe::Recipe;
@@ -135,6 +135,15 @@ pub fn threads(jobs: Option<u16>) -> usize {
 /// Whole numbers from 1 to a million.
 pub fn count() -> impl TypedValueParser<Value = usize> {
     clap::value_parser!(u64).range(1..=1_000_000).map(|count| count as usize)
+}
+
+/// A file to write, whose ending says what is in it: one of `endings`, such as `png`.
+pub fn file_ending_in(endings: &'static [&'static str]) -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().try_map(move |path| {
+        let given = path.extension().unwrap_or_default();
+        let is_right = endings.iter().any(|ending| given.eq_ignore_ascii_case(ending));
+        is_right.then_some(path).ok_or_else(|| format!("the file must end in .{}", endings.join(" or .")))
+    })
 }
 
 /// Machines that run the tasks.

@@ -92,14 +92,16 @@ impl SourceFinder<'_> {
             hints.push(format!("there is no folder `{}`", parent.display()));
         }
         if written.is_relative() {
-            let folder = shown_folder(self.directory);
             hints.push(match written.is_file() {
+                _ if self.directory.as_os_str().is_empty() => "paths are relative to the current folder".to_owned(),
                 true => format!(
                     "`{}` exists in the current folder, but paths in a recipe are relative to the recipe's folder; a full \
                      path works as well",
                     written.display()
                 ),
-                false => format!("paths in a recipe are relative to the recipe's folder, here `{}`", folder.display()),
+                false => {
+                    format!("paths in a recipe are relative to the recipe's folder, here `{}`", self.directory.display())
+                }
             });
         }
         Err((format!("there is no file `{}`", path.display()), hints))

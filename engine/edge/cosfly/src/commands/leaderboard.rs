@@ -1,6 +1,6 @@
 //! `cosfly leaderboard`: a folder of results, flown again, as a page.
 
-use crate::arguments::{RecipeArguments, StoreArguments, threads};
+use crate::arguments::{RecipeArguments, StoreArguments, file_ending_in, threads};
 use crate::command::{Command, Outcome, Refusals};
 use crate::console::Console;
 use crate::exit;
@@ -40,7 +40,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     suite: Vec<PathBuf>,
     /// The page [default: FOLDER/index.html]
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = file_ending_in(&["html", "htm"]))]
     out: Option<PathBuf>,
     #[command(flatten)]
     store: StoreArguments,

@@ -4,7 +4,7 @@ mod browser;
 mod recipe;
 mod results;
 
-use crate::arguments::{RecipeArguments, StoreArguments};
+use crate::arguments::{RecipeArguments, StoreArguments, file_ending_in};
 use crate::command::{Command, Outcome, Refusals};
 use crate::console::Console;
 use crate::exit;
@@ -44,7 +44,7 @@ pub struct Arguments {
     #[arg(long)]
     no_open: bool,
     /// Write the page with its data into one file instead
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["port", "no_open"])]
+    #[arg(long, value_name = "FILE", value_parser = file_ending_in(&["html", "htm"]), conflicts_with_all = ["port", "no_open"])]
     export: Option<PathBuf>,
     #[command(flatten)]
     store: StoreArguments,

@@ -1,5 +1,6 @@
 //! Areas of people over a plan, for `cosfly map inspect`.
 
+use super::own_recipe::{Written, read_own};
 use crate::command::Refusals;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::Town;
@@ -20,7 +21,8 @@ pub fn read(command: &str, map: &Path, tables: &[String]) -> Result<Vec<AreaConf
     let town = format!("name = \"areas\"\n\n[stages.town]\nuse = \"map\"\nsource = {map}\n");
     let people = format!("[stages.people]\nuse = \"pedestrians\"\ninputs.town = \"town\"\nareas = [{areas}]\n");
     let recipe = format!("{town}\n{people}");
-    let recipe = cosfly_recipe::read(Path::new(command), &recipe, &[], &cosfly_stages::registry())?;
+    let written: Vec<Written<'_>> = tables.iter().map(|table| ("--area", table.as_str())).collect();
+    let recipe = read_own(command, &recipe, &[], &written)?;
     let Some(stage) = recipe.stages.last() else { return Ok(vec![]) };
     let files: Vec<PathBuf> = stage.sources.iter().map(|source| source.path.clone()).collect();
     let config: PedestrianConfig = serde_json::from_value(stage.parameters.clone()).map_err(|error| {

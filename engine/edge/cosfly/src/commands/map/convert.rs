@@ -1,6 +1,7 @@
 //! `cosfly map convert`: a town as a textured mesh or as Gaussian splats, a scan whose truth is known.
 
 use super::town;
+use crate::arguments::file_ending_in;
 use crate::command::{Command, Outcome};
 use crate::console::Console;
 use crate::exit;
@@ -31,7 +32,7 @@ pub struct Arguments {
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// File to write: a mesh by the ending .glb, splats by .ply
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = file_ending_in(&["glb", "ply"]))]
     out: PathBuf,
     /// Side of a pixel, and distance between splats, metres, 0.02 to 1
     #[arg(long, value_name = "M", default_value_t = 0.2)]
@@ -46,14 +47,7 @@ const SUN_AZIMUTH_DEG: f64 = 140.0;
 
 impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
-        let is_mesh = match self.out.extension().and_then(|ending| ending.to_str()) {
-            Some("glb") => true,
-            Some("ply") => false,
-            _ => {
-                let message = format!("`--out {}` ends with neither `.glb` nor `.ply`", self.out.display());
-                return Err(refused(message, "`.glb` is a textured mesh, `.ply` are Gaussian splats").into());
-            }
-        };
+        let is_mesh = self.out.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("glb"));
         if !(0.02..=1.0).contains(&self.texel_m) {
             let message = format!("`--texel-m` is `{}`", self.texel_m);
             return Err(refused(message, "0.02 to 1 metres: half a metre shows shapes, 0.05 window frames").into());

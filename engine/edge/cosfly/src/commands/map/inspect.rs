@@ -1,6 +1,7 @@
 //! `cosfly map inspect`: the town that is read from a map file, in figures and as a plan.
 
 use super::{areas, mesh, town};
+use crate::arguments::file_ending_in;
 use crate::command::{Command, Outcome};
 use crate::console::Console;
 use crate::exit;
@@ -39,7 +40,7 @@ pub struct Arguments {
     #[arg(long = "area", value_name = "TABLE")]
     areas: Vec<String>,
     /// File for the plan [default: <FILE's name>-plan.png in the current folder]
-    #[arg(long, value_name = "PNG")]
+    #[arg(long, value_name = "PNG", value_parser = file_ending_in(&["png"]))]
     plan: Option<PathBuf>,
     /// Print JSON; the plan is drawn where `--plan` is given
     #[arg(long)]

@@ -4,6 +4,7 @@ mod areas;
 mod convert;
 mod inspect;
 pub mod mesh;
+mod own_recipe;
 mod tiles;
 mod town;
 

@@ -1,5 +1,6 @@
 //! `cosfly map tiles`: a folder of 3D Tiles as one mesh at one level of detail.
 
+use crate::arguments::file_ending_in;
 use crate::command::{Command, Outcome};
 use crate::console::Console;
 use crate::exit;
@@ -29,7 +30,7 @@ pub struct Arguments {
     #[arg(value_name = "TILESET")]
     file: PathBuf,
     /// File to write, ending in .glb
-    #[arg(long, value_name = "GLB")]
+    #[arg(long, value_name = "GLB", value_parser = file_ending_in(&["glb"]))]
     out: PathBuf,
     /// Largest geometric error of a tile that is not refined, metres, 0 to 1000: a pixel N m away covers N / focal length in pixels
     #[arg(long, value_name = "M", default_value_t = 0.0)]
@@ -89,10 +90,6 @@ impl Command for Arguments {
 impl Arguments {
     fn choice(&self) -> Result<TilesChoice> {
         let refused = |message: String, hint: &str| Diagnostic::new("map-tiles", Fault::Recipe, message).hint(hint);
-        if self.out.extension().is_none_or(|ending| ending != "glb") {
-            let message = format!("`--out {}` does not end in `.glb`", self.out.display());
-            return Err(refused(message, "the tiles become one GLB file"));
-        }
         let geometric_error_m = self.near_m.map_or(self.error_m, |near_m| near_m / FOCAL_PX);
         if !(0.0..=1000.0).contains(&geometric_error_m) {
             let message = match self.near_m {

@@ -1,5 +1,6 @@
 //! Towns of map files for commands, read with parameters of the stage `map`.
 
+use super::own_recipe::{Written, read_own};
 use crate::command::Refusals;
 use cosfly_experts::map_files::{ReadMap, read_map};
 use serde_json::Value;
@@ -11,7 +12,8 @@ pub fn read(command: &str, file: &Path, parameters: &[String]) -> Result<ReadMap
     let file = Value::from(file.to_string_lossy().as_ref());
     let recipe = format!("name = \"map\"\n\n[stages.map]\nuse = \"map\"\nsource = {file}\n");
     let changes: Vec<String> = parameters.iter().map(|change| format!("stages.map.{change}")).collect();
-    let recipe = cosfly_recipe::read(Path::new(command), &recipe, &changes, &cosfly_stages::registry())?;
+    let written: Vec<Written<'_>> = parameters.iter().map(|change| ("--set", change.as_str())).collect();
+    let recipe = read_own(command, &recipe, &changes, &written)?;
     let stage = &recipe.stages[0];
     let files: Vec<PathBuf> = stage.sources.iter().map(|source| source.path.clone()).collect();
     Ok(read_map(stage.parameters.clone(), &files)?)
