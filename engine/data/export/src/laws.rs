@@ -1,6 +1,6 @@
 //! The laws that every export keeps, over all of them.
 
-use crate::{Choice, FORMATS, OptionKind, Source, joined_options, prepare};
+use crate::{Choice, Export, FORMATS, OptionKind, Source, joined_options, prepare};
 use cosfly_diagnose::Result;
 use cosfly_frames::real::wrap_angle_rad;
 use cosfly_metrics::{DeltaFrame, DeltaOrigin};
@@ -28,6 +28,11 @@ fn options(name: &str) -> Map<String, Value> {
         _ => json!({}),
     };
     options.as_object().unwrap().clone()
+}
+
+/// Formats that write what the sample has: no flight of it has a lidar.
+fn formats_of_the_sample() -> impl Iterator<Item = &'static Export> {
+    FORMATS.iter().filter(|format| format.name != "clouds")
 }
 
 fn export(dataset: &PublishedDataset, name: &str, out: &Path) -> Result<Vec<String>> {
@@ -67,7 +72,7 @@ pub(crate) fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
 #[test]
 fn every_export_has_a_card_a_licence_and_the_same_bytes_twice() {
     let (home, dataset) = published();
-    for format in FORMATS {
+    for format in formats_of_the_sample() {
         let [first, second] = ["first", "second"].map(|name| home.path().join(format!("{}-{name}", format.name)));
         export(&dataset, format.name, &first).unwrap();
         export(&dataset, format.name, &second).unwrap();
@@ -92,7 +97,7 @@ fn a_copy_of_a_dataset_gives_the_same_bytes_and_no_export_names_a_folder() {
     let host = std::env::var("HOSTNAME").unwrap_or_default();
     let folders =
         [home.path().display().to_string(), "a copy (2)".to_owned(), host, env!("CARGO_MANIFEST_DIR").to_owned()];
-    for format in FORMATS {
+    for format in formats_of_the_sample() {
         let [first, second] = ["first", "second"].map(|name| home.path().join(format!("{}-{name}", format.name)));
         export(&dataset, format.name, &first).unwrap();
         export(&copied, format.name, &second).unwrap();
@@ -250,6 +255,14 @@ fn channels_on_request_are_files_of_every_export_of_pictures() {
         let card = String::from_utf8_lossy(&files[Path::new("README.md")]).into_owned();
         assert!(card.contains("unit normals"), "{card}");
     }
+}
+
+#[test]
+fn an_export_that_would_hold_nothing_is_refused() {
+    let (home, dataset) = published();
+    let out = home.path().join("clouds");
+    assert_eq!(export(&dataset, "clouds", &out).unwrap_err().code, "export-no-cloud");
+    assert!(!out.exists());
 }
 
 #[test]

@@ -7,7 +7,7 @@ use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::media::FOLDER_LIMIT;
 use crate::source::Source;
-use cosfly_diagnose::Result;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::DMat3;
 use cosfly_read::LoggedSweep;
 use cosfly_schema::log::cloud::CloudPoint;
@@ -57,13 +57,17 @@ impl Format for Clouds {
             }
             Ok(())
         })?;
+        if lidars == 0 {
+            return Err(Diagnostic::new("export-no-cloud", Fault::Recipe, "no chosen flight has a lidar")
+                .hint("a stage `scan` of the recipe gives flights a lidar"));
+        }
+        if sweeps == 0 {
+            return Err(Diagnostic::new("export-no-cloud", Fault::Recipe, "no chosen flight is as long as a sweep")
+                .hint("a higher `rate_hz` of the stage `scan` makes sweeps shorter"));
+        }
         let body = format!("{}{BODY}", options.cloud_files.body());
         ExportCard { format: "lidar clouds", body, ..ExportCard::default() }.write(source, out)?;
-        Ok(match (lidars, sweeps) {
-            (0, _) => vec!["no flight has a lidar: the recipe needs a stage `scan`".to_owned()],
-            (_, 0) => vec!["no flight is as long as a sweep: the stage `scan` needs a higher `rate_hz`".to_owned()],
-            _ => vec![],
-        })
+        Ok(vec![])
     }
 }
 
