@@ -1,16 +1,17 @@
 """The commands of cosfly as functions with typed results.
 
 A function writes its options as arguments of the command and reads the command's ``--json``. The command line checks each option and says
-what is allowed; bound one by one, the 58 options of these functions would be declared, converted and checked a second time, in Rust."""
+what is allowed; bound one by one, the 65 options of these functions would be declared, converted and checked a second time, in Rust.
+Both sides are of one build, so a result takes each field of the JSON and no other: one that has a new name in Rust fails the first call."""
 
 from __future__ import annotations
 
 import json
 import os
 import sys
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Type, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _cosfly, _toml
 from ._errors import InvalidValue, WrongType, names_of, options, path_of
@@ -18,8 +19,6 @@ from ._show import Bars
 
 if TYPE_CHECKING:
     from ._dataset import Dataset
-
-Result = TypeVar("Result")
 
 PathLike = Union[str, "os.PathLike[str]"]
 Recipe = Union[PathLike, Mapping[str, Any]]
@@ -66,11 +65,11 @@ class RunResult:
     """Digest of the dataset."""
     files: Optional[int]
     bytes: Optional[int]
-    seconds: float = 0.0
+    seconds: float
     """Time of the run by the clock."""
-    core_seconds: Optional[float] = None
+    core_seconds: Optional[float]
     """Processor time of all threads; None where nothing was left to do or the system does not tell."""
-    messages: List[str] = field(default_factory=list, repr=False)
+    messages: List[str] = field(repr=False)
     """Warnings and failures, as the command line prints them."""
 
     @property
@@ -115,7 +114,7 @@ class PlanStage:
     """Files that the items to run are expected to write."""
     reasons: List[Dict[str, Any]]
     """Why items would run, with their number."""
-    asks: Optional[Dict[str, Any]] = None
+    asks: Optional[Dict[str, Any]]
     """Questions to a service outside, their tokens and price, where the stage has any."""
 
 
@@ -130,6 +129,8 @@ class PlanResult:
     predicted_bytes: int
     predicted_files: int
     """Files that the run is expected to write."""
+    predicted_price: Optional[float]
+    """Price of ``predicted_core_s`` where a price of core-hours was given."""
     stages: List[PlanStage]
 
 
@@ -169,9 +170,9 @@ class VerifyResult:
     """Frames in which they differ by more than 5 points."""
     regenerated: Optional[str]
     regenerated_wrong: int
-    dataset: str = ""
+    dataset: str
     """Identity of the dataset that was checked, as :attr:`cosfly.Dataset.identity`."""
-    flights_by_mesh: int = 0
+    flights_by_mesh: int
     """Flights that were held against ``mesh``."""
 
     def __bool__(self) -> bool:
@@ -260,25 +261,25 @@ def run(
     given = _options(out=out, store=store, stage=stage, jobs=jobs)
     _, text, messages = _with_recipe(["run", "--json"], recipe, set, given, progress)
     found = json.loads(text)
-    stages = [_known(RunStage, stage) for stage in found["stages"]]
+    stages = [RunStage(**stage) for stage in found["stages"]]
     folder = Path(found["out"]) if found["out"] else None
-    return _known(RunResult, {**found, "stages": stages, "out": folder, "messages": messages})
+    return RunResult(**{**found, "stages": stages, "out": folder, "messages": messages})
 
 
 @options()
-def plan(recipe: Recipe, *, set: Settings = None, store: Optional[PathLike] = None) -> PlanResult:
-    """What :func:`run` would do, and why."""
-    _, text, _ = _with_recipe(["plan", "--json"], recipe, set, _options(store=store), False)
+def plan(recipe: Recipe, *, set: Settings = None, store: Optional[PathLike] = None, price: Optional[float] = None) -> PlanResult:
+    """What :func:`run` would do, and why. ``price`` is that of a core-hour, in any currency."""
+    _, text, _ = _with_recipe(["plan", "--json"], recipe, set, _options(store=store, price=price), False)
     found = json.loads(text)
-    stages = [_known(PlanStage, stage) for stage in found["stages"]]
-    return _known(PlanResult, {**found, "stages": stages})
+    stages = [PlanStage(**stage) for stage in found["stages"]]
+    return PlanResult(**{**found, "stages": stages})
 
 
 @options()
 def why(recipe: Recipe, subject: str, *, set: Settings = None, store: Optional[PathLike] = None) -> WhyResult:
     """Which field or input changed since a stage or an item (``expert/p00003``) was last made."""
     _, text, _ = _with_recipe(["why", "--json"], recipe, set, _options(store=store), False, [subject])
-    return _known(WhyResult, json.loads(text))
+    return WhyResult(**json.loads(text))
 
 
 @options()
@@ -292,31 +293,43 @@ def verify(
     recipe: Optional[PathLike] = None,
     set: Settings = None,
     mesh: Optional[PathLike] = None,
+    mesh_set: Settings = None,
+    mesh_town: Optional[str] = None,
     store: Optional[PathLike] = None,
     progress: Progress = True,
 ) -> VerifyResult:
     """Check a finished dataset: hashes, counts, schemas, reprojection, actions; ``regenerate`` makes flights again.
 
     ``sample`` flights are checked in full instead of all; ``resume`` is a file of notes with which an interrupted check
-    goes on. ``mesh`` is the scan that was flown in: flights keep their clearance from its triangles.
+    goes on. ``mesh`` is the scan that was flown in: flights keep their clearance from its triangles. ``mesh_set`` are its
+    keys as in a recipe, such as ``{"up_axis": "z"}``, ``mesh_town`` its town where the dataset has several.
     """
-    given = _options(sample=sample, resume=resume, jobs=jobs, regenerate=regenerate, recipe=recipe, mesh=mesh, store=store)
-    arguments = ["verify", path_of(dataset), "--json", *given, *_settings(set)]
+    given = _options(sample=sample, resume=resume, jobs=jobs, regenerate=regenerate, recipe=recipe, store=store)
+    arguments = ["verify", path_of(dataset), "--json", *given, *_settings(set), *_mesh(mesh, mesh_set, mesh_town)]
     _, text, _ = _call(arguments, b"", progress)
-    return _known(VerifyResult, json.loads(text))
+    return VerifyResult(**json.loads(text))
 
 
 @options(imperfect="`imperfect_share`, 0 to 1")
 def doctor(
-    data: PathLike, *, imperfect_share: float = 0.05, quotas: Union[str, Sequence[str]] = (), progress: Progress = True
+    data: PathLike,
+    *,
+    imperfect_share: float = 0.05,
+    quotas: Union[str, Sequence[str]] = (),
+    texts: Optional[PathLike] = None,
+    mesh: Optional[PathLike] = None,
+    mesh_set: Settings = None,
+    mesh_town: Optional[str] = None,
+    progress: Progress = True,
 ) -> DoctorResult:
     """Examine anyone's data (cosfly, v7, LeRobot): leaks, signs, units, shifts, frozen frames, limits.
 
     ``imperfect_share`` is the share of imperfect episodes that does no harm, 0 to 1; a quota is like ``"0.2:2-4"``.
+    ``texts`` are judged in the place of the data's own: lines of JSON with trajectory_id, language and text. ``mesh`` to
+    ``mesh_town`` are those of :func:`verify`.
     """
-    arguments = ["doctor", path_of(data), "--json", "--imperfect-share", str(imperfect_share)]
-    for quota in names_of("quotas", quotas):
-        arguments += ["--quota", quota]
+    arguments = ["doctor", path_of(data), "--json", *_mesh(mesh, mesh_set, mesh_town)]
+    arguments += _options(imperfect_share=imperfect_share, quota=names_of("quotas", quotas), texts=texts)
     code, text, _ = _call(arguments, b"", progress)
     return DoctorResult(code == 0, json.loads(text))
 
@@ -382,7 +395,7 @@ def export(
     arguments += _options(split=names_of("splits", splits), trajectory=names_of("trajectory_ids", trajectory_ids), jobs=jobs, **format_options)
     _, text, _ = _call(arguments, b"", progress)
     found = json.loads(text)
-    return _known(ExportResult, {**found, "out": Path(found["out"])})
+    return ExportResult(**{**found, "out": Path(found["out"])})
 
 
 @options(trajectory="`trajectory_id`")
@@ -410,10 +423,10 @@ def _with_recipe(
     return _call([*command, given, *more, *_settings(changes), *options], text.encode(), progress)
 
 
-def settings_of(changes: Settings) -> List[str]:
+def settings_of(changes: Settings, option: str = "set", such_as: str = "{'stages.walkers.count': 8}") -> List[str]:
     """Changes to a recipe as ``path=value`` each."""
     if changes is not None and not isinstance(changes, Mapping):
-        raise WrongType(f"`set` is {changes!r}; it must be a dictionary, such as {{'stages.walkers.count': 8}}")
+        raise WrongType(f"`{option}` is {changes!r}; it must be a dictionary, such as {such_as}")
     # Texts stay bare, as on the command line; other values are TOML.
     return [f"{key}={it if isinstance(it, str) else _toml.value_text(it)}" for key, it in (changes or {}).items()]
 
@@ -422,10 +435,8 @@ def _settings(changes: Settings) -> List[str]:
     return [part for change in settings_of(changes) for part in ("--set", change)]
 
 
-def _known(kind: Type[Result], found: Mapping[str, Any]) -> Result:
-    """A result with the fields that this version knows."""
-    names = {it.name for it in fields(kind)}  # type: ignore[arg-type]
-    return kind(**{name: value for name, value in found.items() if name in names})
+def _mesh(mesh: Optional[PathLike], keys: Settings, town: Optional[str]) -> List[str]:
+    return _options(mesh=mesh, mesh_set=settings_of(keys, "mesh_set", "{'up_axis': 'z'}"), mesh_town=town)
 
 
 def _options(**options: Any) -> List[str]:
