@@ -123,6 +123,20 @@ fn the_same_actions_give_the_same_steps_in_a_used_environment_too() {
     }
 }
 
+/// A leaderboard ranks baselines that do not see the world.
+#[test]
+fn who_does_not_see_the_world_flies_alike_whatever_the_expert_flew() {
+    let (episode, knowledge, _) = episodes(SceneKind::Light, 3, 40).remove(0);
+    let elsewhere = Knowledge { flight: knowledge.flight.iter().rev().copied().collect(), ..knowledge.clone() };
+    for baseline in BASELINES {
+        let known = ["state", "map", "world"];
+        assert!(baseline.sees.iter().all(|input| known.contains(input)), "{}: {:?}", baseline.name, baseline.sees);
+        let [one, other] =
+            [&knowledge, &elsewhere].map(|it| flown(baseline.name, &episode, it, EnvironmentSettings::default()));
+        assert_eq!(one == other, !baseline.sees.contains(&"world"), "{}", baseline.name);
+    }
+}
+
 #[test]
 fn a_drone_does_not_fly_through_a_wall_however_thin() {
     let wall = OrientedBox {

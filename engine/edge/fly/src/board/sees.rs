@@ -2,7 +2,9 @@
 
 use super::notes::Notes;
 use crate::flight::Row;
+use crate::pilot::Place;
 use crate::results::{Card, METRICS};
+use cosfly_env::policies::baseline;
 
 /// A flight that stays within this distance of the expert's on average, metres, is the expert's: a policy that sees no future chooses another one.
 const EXPERT_M: f64 = 1.0;
@@ -31,7 +33,7 @@ impl PolicySees {
             return Err(format!("its notes say that it sees `{name}`, which it was not sent; it was sent {sent}"));
         }
         let is_expert = shown.is_some_and(|shown| shown.iter().any(|it| it == "world"))
-            || card.policy.baseline.as_ref().is_some_and(|baseline| baseline.starts_with("expert"));
+            || card.policy.baseline.as_deref().is_some_and(knows_the_world);
         if is_expert || notes.sees.iter().any(|it| it == "world") {
             return Ok(Self { world: true, words: "world".to_owned() });
         }
@@ -53,6 +55,14 @@ impl PolicySees {
         }
         let said: Vec<&str> = notes.sees.iter().map(String::as_str).collect();
         Ok(Self { world: false, words: if said.is_empty() { sent } else { said }.join(", ") })
+    }
+}
+
+/// Whether the baseline of this name knows the world; one that this program lacks may know anything.
+fn knows_the_world(name: &str) -> bool {
+    match Place::of_baseline(name) {
+        Some(Place::Baseline { name, .. }) => baseline(name).is_none_or(|own| own.sees.contains(&"world")),
+        _ => true,
     }
 }
 

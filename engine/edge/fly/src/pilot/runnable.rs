@@ -5,7 +5,7 @@ use super::onnx::{OnnxPilot, OnnxPolicy};
 use super::place::Place;
 use super::seam::Pilot;
 use crate::results::PolicyCard;
-use cosfly_env::policies::Variation;
+use cosfly_env::policies::{Variation, baseline};
 
 /// A policy that may be run again from what others sent: a baseline of this program, or a network in ONNX, which the interpreter keeps
 /// within its bounds. Servers and functions in Python are programs of others, which are never run from a bundle.
@@ -51,9 +51,7 @@ impl Runnable {
     pub fn sees(&self) -> Vec<&'static str> {
         match self {
             Self::Onnx(policy) => policy.sees(),
-            Self::Baseline("expert", _) => vec!["world"],
-            Self::Baseline("causal", _) => vec!["state", "map"],
-            Self::Baseline(..) => vec!["state"],
+            Self::Baseline(name, _) => baseline(name).map_or_else(Vec::new, |baseline| baseline.sees.to_vec()),
         }
     }
 

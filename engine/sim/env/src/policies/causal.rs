@@ -18,6 +18,7 @@ const TRUST_S: f64 = 4.0;
 pub(super) const BASELINE: Baseline = Baseline {
     name: "causal",
     doc: "plans every second behind a target that walks on as it was last seen, past others who move on as they do now",
+    sees: &["state", "map"],
     make: |_, knowledge| Box::new(Causal { knowledge: knowledge.clone(), plan: None, again_s: 0.0 }),
 };
 

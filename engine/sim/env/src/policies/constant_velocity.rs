@@ -7,6 +7,7 @@ use cosfly_frames::DVec3;
 pub(super) const BASELINE: Baseline = Baseline {
     name: "constant-velocity",
     doc: "flies on as the target walked at first, without turning the camera",
+    sees: &["state"],
     make: |environment, _| {
         let velocity = environment.observation().sighting.velocity_in_world;
         Box::new(ConstantVelocity(velocity))

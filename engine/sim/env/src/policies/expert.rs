@@ -8,6 +8,7 @@ use cosfly_surroundings::visibility::aim_point;
 pub(super) const BASELINE: Baseline = Baseline {
     name: "expert",
     doc: "flies the planned flight, which knows the target's future",
+    sees: &["world"],
     make: |environment, knowledge| {
         let start = [environment.episode().start.position_in_world];
         let waypoints = if knowledge.flight.is_empty() { &start[..] } else { &knowledge.flight };

@@ -13,6 +13,7 @@ const TRUST_S: f64 = 2.0;
 pub(super) const BASELINE: Baseline = Baseline {
     name: "follow",
     doc: "keeps the start's offset from the target, without regard to obstacles",
+    sees: &["state"],
     make: |environment, _| {
         let (observation, episode) = (environment.observation(), environment.episode());
         Box::new(Follow(episode.start.position_in_world - observation.sighting.target.feet_in_world))

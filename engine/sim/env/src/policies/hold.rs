@@ -4,7 +4,7 @@ use super::{Baseline, Policy};
 use crate::{Action, Environment};
 
 pub(super) const BASELINE: Baseline =
-    Baseline { name: "hold", doc: "stops and looks where it looked", make: |_, _| Box::new(Hold) };
+    Baseline { name: "hold", doc: "stops and looks where it looked", sees: &["state"], make: |_, _| Box::new(Hold) };
 
 struct Hold;
 

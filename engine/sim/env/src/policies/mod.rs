@@ -41,6 +41,8 @@ pub struct Baseline {
     pub name: &'static str,
     /// Description, half a sentence.
     pub doc: &'static str,
+    /// Inputs: `state`, `map` (boxes of the town), or `world`, which is more than a drone can know.
+    pub sees: &'static [&'static str],
     /// The policy for the episode of an environment.
     pub make: fn(&Environment, &Knowledge) -> Box<dyn Policy + Send + Sync>,
 }

@@ -14,6 +14,7 @@ const TURN_RAD_S: f64 = 0.5;
 pub(super) const BASELINE: Baseline = Baseline {
     name: "random",
     doc: "flies at another random velocity every second",
+    sees: &["state"],
     make: |environment, _| {
         let stream = environment.episode().seed.stream("random policy");
         Box::new(Random { stream, action: Action::default(), until_s: 0.0 })
