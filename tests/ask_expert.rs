@@ -32,7 +32,8 @@ fn texts(place: [f64; 3]) -> [String; 3] {
 #[test]
 fn the_expert_goes_on_from_where_the_drone_is_and_again_from_where_that_leads() {
     let street = flown_street();
-    let (code, first) = ask(&street, &["--frame", "2", "--position", "40", "-20", "25", "--velocity", "0", "1", "0"]);
+    let (code, first) =
+        ask(&street, &["--frame", "2", "--position-m", "40", "-20", "25", "--velocity-mps", "0", "1", "0"]);
     assert_eq!((code, first["planned"].as_bool()), (Some(0), Some(true)), "{first}");
     let waypoints = first["waypoints"].as_array().expect("waypoints");
     assert_eq!((place(&waypoints[0]), waypoints.len()), ([40.0, -20.0, 25.0], 10));
@@ -42,7 +43,7 @@ fn the_expert_goes_on_from_where_the_drone_is_and_again_from_where_that_leads() 
     let (at, before) = (place(&waypoints[4]), place(&waypoints[3]));
     let velocity: [f64; 3] = core::array::from_fn(|axis| (at[axis] - before[axis]) / 0.5);
     let ([x, y, z], [vx, vy, vz]) = (texts(at), texts(velocity));
-    let state = ["--frame", "6", "--position", &x, &y, &z, "--velocity", &vx, &vy, &vz];
+    let state = ["--frame", "6", "--position-m", &x, &y, &z, "--velocity-mps", &vx, &vy, &vz];
     let (_, whole) = ask(&street, &[&state[..], &["--horizon-s", "1e9"]].concat());
     assert_eq!(whole["waypoints"].as_array().map(Vec::len), Some(6), "{whole}");
     let (code, next) = ask(&street, &[&state[..], &["--horizon-s", "1"]].concat());
@@ -53,8 +54,8 @@ fn the_expert_goes_on_from_where_the_drone_is_and_again_from_where_that_leads() 
 fn states_without_a_way_on_are_answered_with_the_reason() {
     let street = flown_street();
     for (state, reason) in [
-        (["--position", "40", "-20", "0.2", "--velocity", "0", "0", "0"], "from an obstacle or the ground"),
-        (["--position", "40", "-20", "25", "--velocity", "0", "15", "0"], "15.00 m/s; the limit is 12 m/s"),
+        (["--position-m", "40", "-20", "0.2", "--velocity-mps", "0", "0", "0"], "from an obstacle or the ground"),
+        (["--position-m", "40", "-20", "25", "--velocity-mps", "0", "15", "0"], "15.00 m/s; the limit is 12 m/s"),
     ] {
         let (code, answer) = ask(&street, &[&["--frame", "0"], &state[..]].concat());
         assert_eq!((code, answer["planned"].as_bool()), (Some(1), Some(false)), "{answer}");
@@ -78,7 +79,8 @@ fn a_batch_answers_line_by_line_and_names_lines_that_are_no_states() {
     assert_eq!(answers.len(), 4);
     assert_eq!((&answers[1]["line"], &answers[1]["error"]["code"]), (&json!(2), &json!("ask-expert-line")));
     assert_eq!((&answers[2]["line"], &answers[2]["error"]["code"]), (&json!(3), &json!("ask-expert-unknown")));
-    let (_, single) = ask(&street, &["--frame", "2", "--position", "40", "-20", "25", "--velocity", "0", "1", "0"]);
+    let (_, single) =
+        ask(&street, &["--frame", "2", "--position-m", "40", "-20", "25", "--velocity-mps", "0", "1", "0"]);
     for answer in [&answers[0], &answers[3]] {
         assert_eq!((&answer["waypoints"], &answer["certificate"]), (&single["waypoints"], &single["certificate"]));
     }
@@ -120,7 +122,7 @@ fn check_refusal(name: &str, street: &Street, arguments: &[&str]) {
 
 #[test]
 fn questions_that_cannot_be_answered_say_what_to_do() {
-    let place = ["--position", "40", "-20", "25"];
+    let place = ["--position-m", "40", "-20", "25"];
     let asked = |id: &'static str, frame: &'static str| [&["--trajectory", id, "--frame", frame], &place[..]].concat();
     let untouched = Street::new();
     check_refusal("ask_expert_before_a_run", &untouched, &asked("expert-p00001", "2"));
@@ -131,7 +133,7 @@ fn questions_that_cannot_be_answered_say_what_to_do() {
     check_refusal("ask_expert_changed", &street, &[&asked("expert-p00001", "2")[..], &["--set", "seed=9"]].concat());
     check_refusal("ask_expert_horizon", &street, &[&asked("expert-p00001", "2")[..], &["--horizon-s", "0"]].concat());
     let at = |place: [&'static str; 3]| {
-        [&["--trajectory", "expert-p00001", "--frame", "2", "--position"], &place[..]].concat()
+        [&["--trajectory", "expert-p00001", "--frame", "2", "--position-m"], &place[..]].concat()
     };
     check_refusal("ask_expert_far_away", &street, &at(["1e5", "-20", "25"]));
     check_refusal("ask_expert_nowhere", &street, &at(["nan", "-20", "25"]));

@@ -22,6 +22,8 @@ const GONE: &[(&str, &str, &str)] = &[
     ("dagger", "--timeout", "write `--timeout-s`"),
     ("dagger", "--wait", "write `--wait-s`"),
     ("ask-expert", "--horizon", "write `--horizon-s`"),
+    ("ask-expert", "--position", "write `--position-m`"),
+    ("ask-expert", "--velocity", "write `--velocity-mps`"),
 ];
 
 /// Replacement of a file behind `--json` of `cosfly doctor`.

@@ -25,9 +25,9 @@ use std::path::Path;
     name = "ask-expert",
     after_help = "\
 Examples:
-  cosfly ask-expert recipes/small.toml --trajectory expert-p00000 --frame 5 --position 60 60 24
-  cosfly ask-expert recipes/small.toml --trajectory perturbed-p00000 --frame 8 --position 60 61 24 \\
-      --velocity 1 0 0 --horizon-s 4 --json
+  cosfly ask-expert recipes/small.toml --trajectory expert-p00000 --frame 5 --position-m 60 60 24
+  cosfly ask-expert recipes/small.toml --trajectory perturbed-p00000 --frame 8 --position-m 60 61 24 \\
+      --velocity-mps 1 0 0 --horizon-s 4 --json
   cosfly ask-expert recipes/small.toml --batch < states.jsonl > answers.jsonl
 
 A line of a batch is like
@@ -49,10 +49,10 @@ pub struct Arguments {
     frame: Option<usize>,
     /// Position of the drone, metres
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, required_unless_present = "batch")]
-    position: Option<Vec<f64>>,
+    position_m: Option<Vec<f64>>,
     /// Velocity of the drone, m/s [default: that of the flight in this frame]
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true)]
-    velocity: Vec<f64>,
+    velocity_mps: Vec<f64>,
     /// Length of the answer [default: to the trajectory's end]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     horizon_s: Option<f64>,
@@ -60,7 +60,7 @@ pub struct Arguments {
     #[arg(long)]
     json: bool,
     /// Read states from standard input, one JSON object per line, and answer each with one line of JSON
-    #[arg(long, conflicts_with_all = ["trajectory", "frame", "position", "velocity", "horizon_s"])]
+    #[arg(long, conflicts_with_all = ["trajectory", "frame", "position_m", "velocity_mps", "horizon_s"])]
     batch: bool,
 }
 
@@ -70,14 +70,14 @@ impl Command for Arguments {
         let store = opened(&self.recipe, &self.store)?;
         let plan = cosfly_runner::plan(&recipe, &store)?;
         let mut experts = Experts::new(plan, &store);
-        let (Some(trajectory), Some(frame), Some(position)) = (&self.trajectory, self.frame, &self.position) else {
+        let (Some(trajectory), Some(frame), Some(position_m)) = (&self.trajectory, self.frame, &self.position_m) else {
             return Ok(batch(&mut experts, console)?);
         };
         let state = State {
             trajectory_id: trajectory.clone(),
             frame,
-            position_in_world: triple(position),
-            velocity_in_world: (!self.velocity.is_empty()).then(|| triple(&self.velocity)),
+            position_in_world: triple(position_m),
+            velocity_in_world: (!self.velocity_mps.is_empty()).then(|| triple(&self.velocity_mps)),
             horizon_s: self.horizon_s,
         };
         let answer = answer(&mut experts, &state)?;
