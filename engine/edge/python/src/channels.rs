@@ -2,12 +2,13 @@
 
 use cosfly_domain::Channel;
 use cosfly_domain::channels::{ChannelSource, Element};
+use cosfly_fly::pilot::units_of;
 use cosfly_sensors::Sensor;
 use pyo3::prelude::*;
 
-/// A channel for Python: name, type of numpy, values of a pixel, least and greatest value, documentation. The greatest value is
-/// absent where it is the environment's greatest depth.
-type ChannelFacts = (&'static str, &'static str, usize, f64, Option<f64>, &'static str);
+/// A channel for Python: name, type of numpy, values of a pixel, least and greatest value, unit, documentation. The greatest value
+/// is absent where it is the environment's greatest depth.
+type ChannelFacts = (&'static str, &'static str, usize, f64, Option<f64>, &'static str, &'static str);
 
 /// All channels of pictures that environments have.
 #[pyfunction]
@@ -21,7 +22,7 @@ pub fn channels() -> Vec<ChannelFacts> {
             Element::Float if matches!(channel.source, ChannelSource::Depth) => ("float32", 0.0, None),
             Element::Float | Element::Pair => ("float32", f64::NEG_INFINITY, Some(f64::INFINITY)),
         };
-        (channel.name, kind, element.parts(), least, greatest, channel.doc)
+        (channel.name, kind, element.parts(), least, greatest, units_of(channel)[0], channel.doc)
     };
     cosfly_domain::channels::of_moments().map(facts).collect()
 }

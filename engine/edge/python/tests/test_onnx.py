@@ -5,6 +5,7 @@ import json
 import pytest
 
 import cosfly.onnx
+from cosfly._env_config import CHANNELS
 
 
 def entries(data):
@@ -45,3 +46,13 @@ def test_wrong_files_and_actions_are_refused(tmp_path):
     with pytest.raises(cosfly.InvalidValue, match="allowed are simple, full"):
         cosfly.onnx.describe(file, {"seen": "rgb"}, "actions", look="ful")
     assert file.read_bytes() == b"no network"
+
+
+def test_each_channel_has_its_own_unit(tmp_path):
+    file = tmp_path / "policy.onnx"
+    file.write_bytes(cosfly.onnx._text(7, "a graph"))
+    cosfly.onnx.describe(file, {name: name for name in CHANNELS}, "actions")
+    (_, described), = entries(file.read_bytes())
+    units = {name: fed["unit"] for name, fed in described["inputs"].items()}
+    assert units == {name: channel.unit for name, channel in CHANNELS.items()}
+    assert [units[name] for name in ("rgb", "depth", "mask")] == ["0..255", "m", "0, 1"]

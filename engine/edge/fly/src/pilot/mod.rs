@@ -18,7 +18,7 @@ mod source;
 pub use answer::{ActionKind, PolicyAnswer, wrong_number};
 pub use first_answer::{Asked, FirstAnswer};
 pub use manners::Manners;
-pub use onnx::{FARTHEST_M, OnnxPolicy};
+pub use onnx::{FARTHEST_M, OnnxPolicy, units_of};
 pub use open::open;
 pub use place::Place;
 pub use runnable::Runnable;

@@ -46,6 +46,8 @@ class Channel(NamedTuple):
     """Least value."""
     greatest: float | None
     """Greatest value; None where it is ``max_depth_m``."""
+    unit: str
+    """Unit, as descriptions of networks call it (:func:`cosfly.onnx.describe`)."""
     doc: str
     """Meaning with unit and frame."""
 

@@ -10,21 +10,13 @@ import os
 from pathlib import Path
 from typing import Any, Mapping
 
-from ._env_config import LOOKS
+from ._env_config import CHANNELS, LOOKS
 from ._errors import InvalidValue, keys_of
 
 KEY = "cosfly"
 """Key of the description in the file's metadata (``metadata_props``)."""
 
-UNITS = {
-    "state": "m, s, degrees",
-    "rgb": "0..255",
-    "normals": "0..255",
-    "depth": "m",
-    "semantic": "id",
-    "instance": "id",
-    "mask": "0, 1",
-}
+UNITS = {"state": "m, s, degrees", **{name: channel.unit for name, channel in CHANNELS.items()}}
 """Units of observations, unless others are asked for; sensors have those of the state."""
 
 ACTIONS = {

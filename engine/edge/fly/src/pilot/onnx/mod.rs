@@ -9,5 +9,6 @@ mod pilot;
 mod policy;
 
 pub use description::FARTHEST_M;
+pub use observation::units_of;
 pub use pilot::OnnxPilot;
 pub use policy::OnnxPolicy;

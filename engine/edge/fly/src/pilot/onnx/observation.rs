@@ -23,6 +23,18 @@ pub enum Observation {
     Channel(&'static Channel),
 }
 
+/// Units in which a network may ask for a channel; the first is the channel's own.
+pub fn units_of(channel: &Channel) -> &'static [&'static str] {
+    match channel.element() {
+        Element::Colour => &["0..255", "0..1"],
+        Element::Bytes => &["0..255"],
+        Element::Float if *channel == channels::depth::CHANNEL => &["m"],
+        Element::Float | Element::Pair => &["number"],
+        Element::Label | Element::Id => &["id"],
+        Element::Flag => &["0, 1"],
+    }
+}
+
 /// Order of the numbers of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Order {
@@ -65,14 +77,7 @@ impl Observation {
     /// Units in which it may be asked for; the first is its own.
     pub fn units(self) -> &'static [&'static str] {
         let Self::Channel(channel) = self else { return UNITS };
-        match channel.element() {
-            Element::Colour => &["0..255", "0..1"],
-            Element::Bytes => &["0..255"],
-            Element::Float if *channel == channels::depth::CHANNEL => &["m"],
-            Element::Float | Element::Pair => &["number"],
-            Element::Label | Element::Id => &["id"],
-            Element::Flag => &["0, 1"],
-        }
+        units_of(channel)
     }
 
     /// Size of pictures (rows, columns; none for other observations) and the order of their numbers, for an input that is fed with the
