@@ -12,6 +12,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 import numpy as np
 import pytest
 
+import cosfly
 import cosfly.vlm
 
 KEY = "sk-4f0c1d7e9b2a86355aQx"
@@ -95,7 +96,7 @@ def test_malformed_answers_are_named_asked_again_and_counted(model, wrong, monke
     assert "malformed: 1 of 2 answers" in capsys.readouterr().err
     lines = [json.loads(line) for line in (tmp_path / "log").read_text().splitlines()]
     assert [bool(line["malformed"]) for line in lines] == [True, False, True, True]
-    with pytest.raises(ValueError, match="20 malformed answers in a row"):
+    with pytest.raises(cosfly.Error, match="20 malformed answers in a row"):
         for _ in range(20):
             cosfly.vlm.act(observation() | {"step": 10})
     # Another episode of the same process begins to count anew: rows do not depend on jobs.

@@ -11,7 +11,7 @@ import os
 import sys
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _cosfly, _toml
 from ._errors import InvalidValue, WrongType, names_of, options, path_of
@@ -56,20 +56,20 @@ class RunResult:
     recipe: str
     outcome: str
     """``complete``, ``failed`` or ``stopped``; finished items are kept in the store in any case."""
-    stages: List[RunStage]
-    rejected: List[Dict[str, str]]
+    stages: list[RunStage]
+    rejected: list[dict[str, str]]
     """Items without a usable result: stage, item, reason."""
-    out: Optional[Path]
+    out: Path | None
     """Folder of the dataset; None unless the run is complete."""
-    version: Optional[str]
+    version: str | None
     """Digest of the dataset."""
-    files: Optional[int]
-    bytes: Optional[int]
+    files: int | None
+    bytes: int | None
     seconds: float
     """Time of the run by the clock."""
-    core_seconds: Optional[float]
+    core_seconds: float | None
     """Processor time of all threads; None where nothing was left to do or the system does not tell."""
-    messages: List[str] = field(repr=False)
+    messages: list[str] = field(repr=False)
     """Warnings and failures, as the command line prints them."""
 
     @property
@@ -107,14 +107,14 @@ class PlanStage:
     """Items that are not in the store, and that nothing needs."""
     made_again: int
     """Finished items whose intermediate files were removed, and that may be made again for a reader."""
-    predicted_core_s: Optional[float]
+    predicted_core_s: float | None
     """Time of the items to run on one core each, seconds; None where none was measured in this store."""
     predicted_bytes: int
     predicted_files: int
     """Files that the items to run are expected to write."""
-    reasons: List[Dict[str, Any]]
+    reasons: list[dict[str, Any]]
     """Why items would run, with their number."""
-    asks: Optional[Dict[str, Any]]
+    asks: dict[str, Any] | None
     """Questions to a service outside, their tokens and price, where the stage has any."""
 
 
@@ -129,9 +129,9 @@ class PlanResult:
     predicted_bytes: int
     predicted_files: int
     """Files that the run is expected to write."""
-    predicted_price: Optional[float]
+    predicted_price: float | None
     """Price of ``predicted_core_s`` where a price of core-hours was given."""
-    stages: List[PlanStage]
+    stages: list[PlanStage]
 
 
 @dataclass(frozen=True)
@@ -142,7 +142,7 @@ class WhyResult:
     cached: bool
     needed: bool
     """False where everything that is made of the result is finished."""
-    chain: List[Dict[str, Any]]
+    chain: list[dict[str, Any]]
     """Tasks from the asked one to the root cause, each with its changes."""
 
 
@@ -153,12 +153,12 @@ class VerifyResult:
     sound: bool
     """Whether nothing wrong was found."""
     found: int
-    findings: List[str]
+    findings: list[str]
     files: int
     bytes: int
     flights: int
     flights_of_dataset: int
-    sample: Optional[int]
+    sample: int | None
     """Number of flights in the sample, where only a sample was checked in full."""
     resumed: int
     """Flights that an earlier check had found sound."""
@@ -168,7 +168,7 @@ class VerifyResult:
     """Frames whose visible shares by rays and by pixels were compared."""
     visibility_gaps: int
     """Frames in which they differ by more than 5 points."""
-    regenerated: Optional[str]
+    regenerated: str | None
     regenerated_wrong: int
     dataset: str
     """Identity of the dataset that was checked, as :attr:`cosfly.Dataset.identity`."""
@@ -185,7 +185,7 @@ class DoctorResult:
 
     well: bool
     """No damage, no more imperfect episodes than allowed, and all quotas met."""
-    report: Dict[str, Any]
+    report: dict[str, Any]
     """All findings, as ``cosfly doctor --json`` writes them."""
 
     def __bool__(self) -> bool:
@@ -196,7 +196,7 @@ class DoctorResult:
 class EvaluateResult:
     """Result of :func:`evaluate`."""
 
-    report: Dict[str, Any]
+    report: dict[str, Any]
     """Scores, intervals and baselines, as in report.json."""
     folder: Path
     """Folder with report.md, report.json and errors.svg."""
@@ -233,11 +233,11 @@ class ExportResult:
     format: str
     files: int
     bytes: int
-    remarks: List[str]
+    remarks: list[str]
 
 
 @options(start="`template`")
-def init(folder: PathLike = "town", template: Optional[str] = None) -> Path:
+def init(folder: PathLike = "town", template: str | None = None) -> Path:
     """Write a folder to begin with: a recipe, its town, a page. ``template`` is ``town`` or ``small``."""
     _call(["init", path_of(folder)] + (["--template", template] if template else []), b"", False)
     return Path(folder)
@@ -248,10 +248,10 @@ def run(
     recipe: Recipe,
     *,
     set: Settings = None,
-    out: Optional[PathLike] = None,
-    store: Optional[PathLike] = None,
-    stage: Optional[str] = None,
-    jobs: Optional[int] = None,
+    out: PathLike | None = None,
+    store: PathLike | None = None,
+    stage: str | None = None,
+    jobs: int | None = None,
     progress: Progress = True,
 ) -> RunResult:
     """Make everything that a recipe describes, or only ``stage`` and what it needs. Finished items are never made again, and Ctrl-C keeps them.
@@ -267,7 +267,7 @@ def run(
 
 
 @options()
-def plan(recipe: Recipe, *, set: Settings = None, store: Optional[PathLike] = None, price: Optional[float] = None) -> PlanResult:
+def plan(recipe: Recipe, *, set: Settings = None, store: PathLike | None = None, price: float | None = None) -> PlanResult:
     """What :func:`run` would do, and why. ``price`` is that of a core-hour, in any currency."""
     _, text, _ = _with_recipe(["plan", "--json"], recipe, set, _options(store=store, price=price), False)
     found = json.loads(text)
@@ -276,7 +276,7 @@ def plan(recipe: Recipe, *, set: Settings = None, store: Optional[PathLike] = No
 
 
 @options()
-def why(recipe: Recipe, subject: str, *, set: Settings = None, store: Optional[PathLike] = None) -> WhyResult:
+def why(recipe: Recipe, subject: str, *, set: Settings = None, store: PathLike | None = None) -> WhyResult:
     """Which field or input changed since a stage or an item (``expert/p00003``) was last made."""
     _, text, _ = _with_recipe(["why", "--json"], recipe, set, _options(store=store), False, [subject])
     return WhyResult(**json.loads(text))
@@ -286,16 +286,16 @@ def why(recipe: Recipe, subject: str, *, set: Settings = None, store: Optional[P
 def verify(
     dataset: PathLike,
     *,
-    sample: Optional[int] = None,
-    resume: Optional[PathLike] = None,
-    jobs: Optional[int] = None,
-    regenerate: Optional[int] = None,
-    recipe: Optional[PathLike] = None,
+    sample: int | None = None,
+    resume: PathLike | None = None,
+    jobs: int | None = None,
+    regenerate: int | None = None,
+    recipe: PathLike | None = None,
     set: Settings = None,
-    mesh: Optional[PathLike] = None,
+    mesh: PathLike | None = None,
     mesh_set: Settings = None,
-    mesh_town: Optional[str] = None,
-    store: Optional[PathLike] = None,
+    mesh_town: str | None = None,
+    store: PathLike | None = None,
     progress: Progress = True,
 ) -> VerifyResult:
     """Check a finished dataset: hashes, counts, schemas, reprojection, actions; ``regenerate`` makes flights again.
@@ -315,11 +315,11 @@ def doctor(
     data: PathLike,
     *,
     imperfect_share: float = 0.05,
-    quotas: Union[str, Sequence[str]] = (),
-    texts: Optional[PathLike] = None,
-    mesh: Optional[PathLike] = None,
+    quotas: str | Sequence[str] = (),
+    texts: PathLike | None = None,
+    mesh: PathLike | None = None,
     mesh_set: Settings = None,
-    mesh_town: Optional[str] = None,
+    mesh_town: str | None = None,
     progress: Progress = True,
 ) -> DoctorResult:
     """Examine anyone's data (cosfly, v7, LeRobot): leaks, signs, units, shifts, frozen frames, limits.
@@ -337,27 +337,27 @@ def doctor(
 @options(split="`splits`")
 def evaluate(
     dataset: PathLike,
-    predictions: Optional[PathLike] = None,
+    predictions: PathLike | None = None,
     *,
-    out: Optional[PathLike] = None,
-    kind: Optional[str] = None,
-    splits: Union[str, Sequence[str]] = (),
-    frame: Optional[str] = None,
-    origin: Optional[str] = None,
-    anchor: Optional[str] = None,
-    input: Optional[str] = None,
-    history: Optional[int] = None,
-    horizon: Optional[int] = None,
-    stride: Optional[int] = None,
+    out: PathLike | None = None,
+    kind: str | None = None,
+    splits: str | Sequence[str] = (),
+    frame: str | None = None,
+    origin: str | None = None,
+    anchor: str | None = None,
+    input: str | None = None,
+    history: int | None = None,
+    horizon: int | None = None,
+    stride: int | None = None,
     missing_as_zero: bool = False,
-    resamples: Optional[int] = None,
-    seed: Optional[int] = None,
-    every: Optional[int] = None,
-    depth_per_metre: Optional[float] = None,
-    max_depth_m: Optional[float] = None,
-    categories: Union[int, Sequence[int]] = (),
-    images: Optional[PathLike] = None,
-    sequences: Optional[PathLike] = None,
+    resamples: int | None = None,
+    seed: int | None = None,
+    every: int | None = None,
+    depth_per_metre: float | None = None,
+    max_depth_m: float | None = None,
+    categories: int | Sequence[int] = (),
+    images: PathLike | None = None,
+    sequences: PathLike | None = None,
 ) -> EvaluateResult:
     """Score predictions on a dataset, beside baselines; without predictions the baselines alone. The command is ``cosfly eval``.
 
@@ -384,9 +384,9 @@ def export(
     format: str,
     out: PathLike,
     *,
-    splits: Union[str, Sequence[str]] = (),
-    trajectory_ids: Union[str, Sequence[str]] = (),
-    jobs: Optional[int] = None,
+    splits: str | Sequence[str] = (),
+    trajectory_ids: str | Sequence[str] = (),
+    jobs: int | None = None,
     progress: Progress = True,
     **format_options: Option,
 ) -> ExportResult:
@@ -400,8 +400,8 @@ def export(
 
 @options(trajectory="`trajectory_id`")
 def preview(
-    dataset: PathLike, trajectory_id: Optional[str] = None, *, frames: Union[None, str, Sequence[int]] = None,
-    out: Optional[PathLike] = None, progress: Progress = True,
+    dataset: PathLike, trajectory_id: str | None = None, *, frames: str | Sequence[int] | None = None,
+    out: PathLike | None = None, progress: Progress = True,
 ) -> PreviewResult:  # fmt: skip
     """Draw a flight: contact sheet, animated clip, plan of the town with the paths. Notebooks show the result.
 
@@ -416,14 +416,14 @@ def preview(
 
 
 def _with_recipe(
-    command: List[str], recipe: Recipe, changes: Settings, options: List[str], progress: Progress,
+    command: list[str], recipe: Recipe, changes: Settings, options: list[str], progress: Progress,
     more: Sequence[str] = (),
-) -> Tuple[int, str, List[str]]:  # fmt: skip
+) -> tuple[int, str, list[str]]:  # fmt: skip
     given, text = ("-", _toml.dumps(recipe)) if isinstance(recipe, Mapping) else (path_of(recipe, "a recipe"), "")
     return _call([*command, given, *more, *_settings(changes), *options], text.encode(), progress)
 
 
-def settings_of(changes: Settings, option: str = "set", such_as: str = "{'stages.walkers.count': 8}") -> List[str]:
+def settings_of(changes: Settings, option: str = "set", such_as: str = "{'stages.walkers.count': 8}") -> list[str]:
     """Changes to a recipe as ``path=value`` each."""
     if changes is not None and not isinstance(changes, Mapping):
         raise WrongType(f"`{option}` is {changes!r}; it must be a dictionary, such as {such_as}")
@@ -431,16 +431,16 @@ def settings_of(changes: Settings, option: str = "set", such_as: str = "{'stages
     return [f"{key}={it if isinstance(it, str) else _toml.value_text(it)}" for key, it in (changes or {}).items()]
 
 
-def _settings(changes: Settings) -> List[str]:
+def _settings(changes: Settings) -> list[str]:
     return [part for change in settings_of(changes) for part in ("--set", change)]
 
 
-def _mesh(mesh: Optional[PathLike], keys: Settings, town: Optional[str]) -> List[str]:
+def _mesh(mesh: PathLike | None, keys: Settings, town: str | None) -> list[str]:
     return _options(mesh=mesh, mesh_set=settings_of(keys, "mesh_set", "{'up_axis': 'z'}"), mesh_town=town)
 
 
-def _options(**options: Any) -> List[str]:
-    arguments: List[str] = []
+def _options(**options: Any) -> list[str]:
+    arguments: list[str] = []
     for name, value in options.items():
         flag = "--" + name.replace("_", "-")
         for one in value if isinstance(value, (list, tuple)) else [value]:
@@ -451,7 +451,7 @@ def _options(**options: Any) -> List[str]:
     return arguments
 
 
-def _call(arguments: List[str], text: bytes, progress: Progress) -> Tuple[int, str, List[str]]:
+def _call(arguments: list[str], text: bytes, progress: Progress) -> tuple[int, str, list[str]]:
     if callable(progress):
         return _cosfly.call(arguments, text, progress)
     with Bars(arguments[0], bool(progress), sys.stderr) as bars:

@@ -9,7 +9,7 @@ import operator
 import os
 import warnings
 from pathlib import Path
-from typing import Any, Container, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Container, Dict, Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -83,19 +83,19 @@ class Dataset:
         self,
         path: PathLike,
         *,
-        split: Optional[str] = None,
-        role: Optional[str] = None,
-        trajectories: Union[None, str, Sequence[str]] = None,
-        channels: Union[None, str, Sequence[str]] = None,
-        size: Optional[Tuple[int, int]] = None,
-        columns: Union[str, Sequence[str]] = (),
-        captions: Optional[str] = None,
+        split: str | None = None,
+        role: str | None = None,
+        trajectories: str | Sequence[str] | None = None,
+        channels: str | Sequence[str] | None = None,
+        size: tuple[int, int] | None = None,
+        columns: str | Sequence[str] = (),
+        captions: str | None = None,
         jobs: int = 1,
     ):
         self.path = Path(path_of(path))
         self.split, self.role = split, role
         self.channels, self.size = CHANNELS if channels is None else names_of("channels", channels), None if size is None else size_of(size)
-        self._opened: Tuple[int, Optional[Reader]] = (-1, None)
+        self._opened: tuple[int, Reader | None] = (-1, None)
         self.jobs = min(_whole("jobs", jobs, 1), 1024)
         if split not in (None, "train", "val", "test"):
             raise InvalidValue(f"the split is {split!r}; splits are 'train', 'val' and 'test'")
@@ -110,17 +110,17 @@ class Dataset:
         self._counts = self._reader.frames
         chosen = self._chosen(trajectories)
         splits = zip(ids, self._reader.splits)
-        self.trajectory_ids: List[str] = [name for name, of in splits if split in (None, of) and name in chosen]
+        self.trajectory_ids: list[str] = [name for name, of in splits if split in (None, of) and name in chosen]
         """Ids of the trajectories of the split, and of ``trajectories``."""
-        self._columns: Dict[str, Any] = {}
-        self._numbers: Optional[Dict[Tuple[str, int], int]] = None
+        self._columns: dict[str, Any] = {}
+        self._numbers: dict[tuple[str, int], int] | None = None
         self._index = self._frames_index(names_of("columns", columns))
         self._captions = self._read_captions(captions) if captions else {}
         for name in self._one_of_each_camera() if channels is not None else ():
             has = self.channels_of(name)
             self._reader.images(self._places([(name, 0)]), [channel for channel in self.channels if channel not in has])
 
-    def _chosen(self, trajectories: Union[None, str, Sequence[str]]) -> Container[str]:
+    def _chosen(self, trajectories: str | Sequence[str] | None) -> Container[str]:
         """Ids of the trajectories that are asked for."""
         return _matching(trajectories, self._number)
 
@@ -139,8 +139,8 @@ class Dataset:
         return self._reader.table(name, self.split)
 
     def frame(
-        self, trajectory_id: str, frame: int, channels: Union[None, str, Sequence[str]] = None,
-        size: Optional[Tuple[int, int]] = None,
+        self, trajectory_id: str, frame: int, channels: str | Sequence[str] | None = None,
+        size: tuple[int, int] | None = None,
     ) -> Frame:  # fmt: skip
         """Images of one frame, by channel: a dictionary that notebooks show."""
         images = self._images([(trajectory_id, frame)], names_of("channels", channels or self.channels), size_of(size) if size else self.size)
@@ -150,7 +150,7 @@ class Dataset:
         """One flight: its frames by number; notebooks show its contact sheet, plan and clip."""
         return Trajectory(self, trajectory_id, self._counts[self._number_of(trajectory_id)])
 
-    def town(self, name: Optional[str] = None) -> Town:
+    def town(self, name: str | None = None) -> Town:
         """A town of a dataset of cosfly, the first by default; notebooks show its plan."""
         table = self.table("trajectories")
         if "town" not in table.columns:
@@ -160,11 +160,11 @@ class Dataset:
                 return Town(self, of, trajectory_id)
         raise NotFound(f"there is no town {name!r}; the towns are {', '.join(sorted(set(table['town'])))}")
 
-    def size_of(self, trajectory_id: str) -> Tuple[int, int]:
+    def size_of(self, trajectory_id: str) -> tuple[int, int]:
         """Width and height of the images of a trajectory as they are stored, pixels."""
         return self._reader.sizes[self._number_of(trajectory_id)]
 
-    def channels_of(self, trajectory_id: str) -> List[str]:
+    def channels_of(self, trajectory_id: str) -> list[str]:
         """Names of the channels that the log of a trajectory has."""
         return self._reader.channels(self._number_of(trajectory_id))
 
@@ -177,10 +177,10 @@ class Dataset:
     def __len__(self) -> int:
         return len(self._index)
 
-    def __getitem__(self, index: Union[int, np.integer]) -> Sample:
+    def __getitem__(self, index: int | np.integer) -> Sample:
         return self._samples([numbered("sample", index, len(self))])[0]
 
-    def batch(self, numbers: Sequence[Union[int, np.integer]]) -> Sample:
+    def batch(self, numbers: Sequence[int | np.integer]) -> Sample:
         """Some samples as one batch, as a :class:`Loader` gives it; ``jobs`` threads read and decode all of its pictures."""
         if not len(numbers):
             raise InvalidValue("a batch without numbers has no samples; give one number or more")
@@ -201,7 +201,7 @@ class Dataset:
     def __iter__(self) -> Iterator[Sample]:
         return (self[index] for index in range(len(self)))
 
-    def order(self, seed: int = 0, epoch: int = 0, shard: Tuple[int, int] = (0, 1)) -> np.ndarray:
+    def order(self, seed: int = 0, epoch: int = 0, shard: tuple[int, int] = (0, 1)) -> np.ndarray:
         """Numbers of all samples in the shuffled order of an epoch; of shard (k, n) every n-th from the k-th on.
 
         The order depends on seed, epoch and the number of samples alone, so ``order(...)[done:]`` goes on where a
@@ -228,15 +228,15 @@ class Dataset:
             self._opened = (os.getpid(), reader)
         return reader
 
-    def __getstate__(self) -> Dict[str, Any]:
+    def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "_opened": (-1, None)}
 
     def _images(
-        self, frames: Sequence[Tuple[str, int]], channels: Sequence[str], size: Optional[Tuple[int, int]]
-    ) -> Dict[str, List[np.ndarray]]:
+        self, frames: Sequence[tuple[str, int]], channels: Sequence[str], size: tuple[int, int] | None
+    ) -> dict[str, list[np.ndarray]]:
         return self._reader.images(self._places(frames), list(channels), size, self.jobs)
 
-    def _places(self, frames: Sequence[Tuple[str, int]]) -> List[Tuple[int, int]]:
+    def _places(self, frames: Sequence[tuple[str, int]]) -> list[tuple[int, int]]:
         """Numbers of trajectories and frames, which exist."""
         places = []
         for name, frame in frames:
@@ -253,7 +253,7 @@ class Dataset:
             raise NotFound(f"{self.path} has no trajectory {trajectory_id!r}; it has {', '.join(near)} ...")
         return number
 
-    def _one_of_each_camera(self) -> List[str]:
+    def _one_of_each_camera(self) -> list[str]:
         """First flight of each camera among the samples: films of one camera have the same channels."""
         table = self.table("trajectories")
         cameras = table["camera_name"] if "camera_name" in table.columns else [None] * len(table)
@@ -261,7 +261,7 @@ class Dataset:
         first = {camera_of[name]: name for name in dict.fromkeys(name for name, _ in reversed(self._index))}
         return sorted(first.values())
 
-    def _frames_index(self, columns: Sequence[str]) -> List[Tuple[str, int]]:
+    def _frames_index(self, columns: Sequence[str]) -> list[tuple[str, int]]:
         roles = dict(zip(self.table("trajectories")["trajectory_id"], self.table("trajectories")["role"]))
         names = [name for name in self.trajectory_ids if self.role in (None, ROLES[int(roles[name])])]
         frames = dict(zip(self._number, self._counts))
@@ -272,9 +272,9 @@ class Dataset:
             self._columns = {name: _taken(table[name], rows) for name in columns}
         return [(name, frame) for name in names for frame in range(frames[name])]
 
-    def _read_captions(self, language: str) -> Dict[str, Dict[str, str]]:
+    def _read_captions(self, language: str) -> dict[str, dict[str, str]]:
         table = self.table("captions")
-        found: Dict[str, Dict[str, str]] = {}
+        found: dict[str, dict[str, str]] = {}
         styles = table["style"] if "style" in table.columns else [""] * len(table)  # other layouts state none
         for name, of, style, text in zip(table["trajectory_id"], table["language"], styles, table["text"]):
             if of == language:
@@ -284,7 +284,7 @@ class Dataset:
             raise InvalidValue(f"no caption is in {language!r}; the languages are {languages or 'not stated: there are no captions'}")
         return found
 
-    def _samples(self, numbers: Sequence[int]) -> List[Sample]:
+    def _samples(self, numbers: Sequence[int]) -> list[Sample]:
         """Some samples; their pictures are read with one call."""
         wanted = [self._frames_of_sample(number) for number in numbers]
         frames = [frame for of in wanted for frame in of]
@@ -296,13 +296,13 @@ class Dataset:
             first += len(of)
         return samples
 
-    def _frames_of_sample(self, number: int) -> List[Tuple[str, int]]:
+    def _frames_of_sample(self, number: int) -> list[tuple[str, int]]:
         return [self._index[number]]
 
-    def _rows_of(self, frames: Sequence[Tuple[str, int]]) -> List[int]:
+    def _rows_of(self, frames: Sequence[tuple[str, int]]) -> list[int]:
         raise InvalidValue("`rows` are places in the arrays of a pack: ask the windows of a `cosfly.Pack`; `cosfly.pack` makes one")
 
-    def _labelled(self, number: int, pictures: Dict[str, Any]) -> Sample:
+    def _labelled(self, number: int, pictures: dict[str, Any]) -> Sample:
         name, frame = self._index[number]
         sample: Sample = {channel: arrays[0] for channel, arrays in pictures.items()}
         sample.update(trajectory_id=name, frame=frame)
@@ -361,7 +361,7 @@ class Windows(Dataset):
             rows = [self._scaled(name, boxes) for (name, _), boxes in zip(self._index, rows)]
         return np.stack(rows) if len(rows) else np.empty((0, *self._shape_of(column)), np.float32)
 
-    def _shape_of(self, column: str) -> Tuple[int, ...]:
+    def _shape_of(self, column: str) -> tuple[int, ...]:
         """Shape of a column of one window, by any window of the data where none is chosen."""
         width, rows = WINDOW_LISTS[column], self._reader.table("windows", None)[column]
         numbers = len(rows[0]) if len(rows) else 0
@@ -377,11 +377,11 @@ class Windows(Dataset):
         return self.dataset._reader
 
     def _images(
-        self, frames: Sequence[Tuple[str, int]], channels: Sequence[str], size: Optional[Tuple[int, int]]
-    ) -> Dict[str, List[np.ndarray]]:
+        self, frames: Sequence[tuple[str, int]], channels: Sequence[str], size: tuple[int, int] | None
+    ) -> dict[str, list[np.ndarray]]:
         return self.dataset._images(frames, channels, size)
 
-    def _windows_index(self) -> List[Tuple[str, int]]:
+    def _windows_index(self) -> list[tuple[str, int]]:
         table = self.table("windows")
         of_dataset = set(self.trajectory_ids)
         kept = np.ones(len(table), bool) if self.role is None else table["role"] == ROLES.index(self.role)
@@ -389,7 +389,7 @@ class Windows(Dataset):
         kept = np.flatnonzero(kept)
         names, starts = table["trajectory_id"], table["start_frame"]
         has = set(table.columns)
-        self._arrays: Dict[str, List[np.ndarray]] = {
+        self._arrays: dict[str, list[np.ndarray]] = {
             name: [np.asarray(row).reshape(-1, width).astype(np.float32) for row in _taken(table[name], kept)]
             for name, width in WINDOW_LISTS.items()
             if name in has and name != "current_pose_in_world"
@@ -413,11 +413,11 @@ class Windows(Dataset):
             self._columns["difficulty"] = [DIFFICULTIES[int(number)] for number in table["difficulty"][kept]]
         return [(names[row], int(starts[row])) for row in kept]
 
-    def _frames_of_sample(self, number: int) -> List[Tuple[str, int]]:
+    def _frames_of_sample(self, number: int) -> list[tuple[str, int]]:
         name, start = self._index[number]
         return [(name, start + frame) for frame in range(len(self._arrays["input_boxes_px"][number]))]
 
-    def _labelled(self, number: int, pictures: Dict[str, Any]) -> Sample:
+    def _labelled(self, number: int, pictures: dict[str, Any]) -> Sample:
         name, start = self._index[number]
         sample: Sample = {channel: np.stack(them) if isinstance(them, list) else them for channel, them in pictures.items()}
         sample.update(trajectory_id=name, start_frame=start)
@@ -428,7 +428,7 @@ class Windows(Dataset):
         return sample
 
 
-def warn_of_small_targets(dataset: Dataset, boxes: Iterable[Tuple[str, Any]]) -> None:
+def warn_of_small_targets(dataset: Dataset, boxes: Iterable[tuple[str, Any]]) -> None:
     """Warns where the target is small at the dataset's size; ``boxes`` are trajectories and edges in stored pictures."""
     scaled = (dataset._scaled(name, edges) for name, edges in boxes if edges is not None)
     heights = [edges[3] - edges[1] for edges in scaled if edges[3] > edges[1]]
@@ -452,7 +452,7 @@ class Loader:
     @options()
     def __init__(
         self, dataset: Dataset, batch_size: int = 1, *, seed: int = 0, shuffle: bool = True,
-        shard: Tuple[int, int] = (0, 1), drop_last: bool = False,
+        shard: tuple[int, int] = (0, 1), drop_last: bool = False,
     ):  # fmt: skip
         self.dataset, self.batch_size = dataset, _whole("batch_size", batch_size, 1)
         self.seed, self.shuffle = _whole("seed", seed, 0), shuffle
@@ -478,11 +478,11 @@ class Loader:
             yield batch
         self.epoch, self.batch = self.epoch + 1, 0
 
-    def state_dict(self) -> Dict[str, Any]:
+    def state_dict(self) -> dict[str, Any]:
         """Place in the data: the next batch of the current epoch, and what its numbers mean."""
         return {"epoch": self.epoch, "batch": self.batch, "seed": self.seed, **self._meaning()}
 
-    def _meaning(self) -> Dict[str, Any]:
+    def _meaning(self) -> dict[str, Any]:
         """What the number of a batch means: which samples, in which order, how many at a time."""
         of = self.dataset
         flights = hashlib.sha256("\n".join(of.trajectory_ids).encode()).hexdigest()[:16]
@@ -492,7 +492,7 @@ class Loader:
             "batch_size": self.batch_size, "shuffle": self.shuffle, "shards": self.shard[1],
         }  # fmt: skip
 
-    def load_state_dict(self, state: Dict[str, Any]) -> None:
+    def load_state_dict(self, state: dict[str, Any]) -> None:
         """Go on where ``state_dict()`` was taken; dataset, batch size and number of shards must be the same."""
         if not isinstance(state, Mapping):
             raise WrongType(f"the state is {state!r:.60} ({type(state).__name__}); give what `state_dict()` gave")
@@ -527,7 +527,7 @@ def _index(what: str, index: Any) -> int:
         raise WrongType(f"a {what} is chosen by a whole number, not by {index!r} ({type(index).__name__})") from None
 
 
-def _shard(shard: Tuple[int, int]) -> Tuple[int, int]:
+def _shard(shard: tuple[int, int]) -> tuple[int, int]:
     """Number of a shard and of all shards."""
     try:
         first, count = shard
@@ -565,7 +565,7 @@ def _taken(values: Any, rows: np.ndarray) -> Any:
     return values[rows] if isinstance(values, np.ndarray) else [values[row] for row in rows]
 
 
-def _matching(trajectories: Union[None, str, Sequence[str]], names: Iterable[str]) -> Container[str]:
+def _matching(trajectories: str | Sequence[str] | None, names: Iterable[str]) -> Container[str]:
     """Names that are given, or match a given pattern."""
     known = dict.fromkeys(names)
     if trajectories is None:

@@ -10,7 +10,7 @@ import os
 import re
 import warnings
 from dataclasses import dataclass
-from typing import Any, Callable, Mapping, Optional, Sequence, Tuple, TypeVar, cast
+from typing import Any, Callable, Mapping, Sequence, TypeVar, cast
 
 Call = TypeVar("Call", bound=Callable[..., Any])
 
@@ -23,9 +23,9 @@ class Problem:
     """Stable name, such as ``recipe-unknown-key``; the book's index of codes lists all."""
     message: str
     """Statement of the problem, with its causes."""
-    hints: Tuple[str, ...]
+    hints: tuple[str, ...]
     """Allowed values and next steps."""
-    place: Optional[Tuple[str, int, int]]
+    place: tuple[str, int, int] | None
     """File, line and column (from 1), where the problem has a place in a file."""
 
 
@@ -36,7 +36,7 @@ class Error(Exception):
 
     def __init__(self, text: str, problems: Sequence[dict] = ()):
         Exception.__init__(self, text)  # PyTorch gives the text of a worker's error alone
-        self.problems: Tuple[Problem, ...] = tuple(
+        self.problems: tuple[Problem, ...] = tuple(
             Problem(it["code"], it["message"], tuple(it["hints"]), tuple(it["place"]) if it["place"] else None)
             for it in problems
         )
@@ -48,12 +48,12 @@ class Error(Exception):
         return self.problems[0].code if self.problems else found[1] if found else self._code
 
     @property
-    def hints(self) -> Tuple[str, ...]:
+    def hints(self) -> tuple[str, ...]:
         """Allowed values and next steps, of all problems."""
         return tuple(hint for problem in self.problems for hint in problem.hints)
 
     @property
-    def place(self) -> Optional[Tuple[str, int, int]]:
+    def place(self) -> tuple[str, int, int] | None:
         """File, line and column (from 1) of the first problem that has a place."""
         return next((problem.place for problem in self.problems if problem.place), None)
 
@@ -96,7 +96,7 @@ def path_of(value: Any, what: str = "a path") -> str:
         raise WrongType(f"{what} is a text or a path, not {value!r:.60} ({type(value).__name__})") from None
 
 
-def names_of(what: str, given: Any) -> Tuple[str, ...]:
+def names_of(what: str, given: Any) -> tuple[str, ...]:
     """The names of a list, or the one name that is given alone."""
     if isinstance(given, str):
         return (given,)
@@ -109,7 +109,7 @@ def names_of(what: str, given: Any) -> Tuple[str, ...]:
     return names
 
 
-def size_of(size: Any) -> Tuple[int, int]:
+def size_of(size: Any) -> tuple[int, int]:
     """Width and height of pictures, pixels."""
     try:
         width, height = (operator.index(side) for side in size)

@@ -6,7 +6,7 @@ import json
 import math
 import os
 from dataclasses import dataclass
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Mapping, Sequence
 
 import numpy as np
 
@@ -24,7 +24,7 @@ class Answer:
     """Frame of the state; -1 where the state has none that is a number."""
     planned: bool
     """Whether there is a flight from this state within all limits."""
-    reason: Optional[str]
+    reason: str | None
     """Why there is none."""
     frames: np.ndarray
     """Frames of the waypoints, (N,) int."""
@@ -32,9 +32,9 @@ class Answer:
     """x, y, z (m), pitch, yaw (degrees) in the world frame, (N, 5)."""
     visibility: np.ndarray
     """Visible share of the target's body points, (N,), 0..1."""
-    certificate: Optional[Dict[str, Any]]
+    certificate: dict[str, Any] | None
     """Clearance, speed, acceleration, jerk and mean visibility of the whole answer."""
-    error: Optional[str] = None
+    error: str | None = None
     """Message where the state itself is not allowed, such as NaN."""
 
 
@@ -46,16 +46,16 @@ class Expert:
     """
 
     @options(threads="`jobs` of the method `plan_from()`")
-    def __init__(self, recipe: PathLike, *, set: Settings = None, store: Optional[PathLike] = None):
+    def __init__(self, recipe: PathLike, *, set: Settings = None, store: PathLike | None = None):
         place = None if store is None else path_of(store)
         self._options = json.dumps({"recipe": path_of(recipe, "the recipe of an expert"), "set": settings_of(set), "store": place})
-        self._opened: Tuple[int, Optional[_cosfly.ExpertService]] = (-1, None)
+        self._opened: tuple[int, _cosfly.ExpertService | None] = (-1, None)
 
-    def __getstate__(self) -> Dict[str, Any]:
+    def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "_opened": (-1, None)}
 
     @options()
-    def plan_from(self, states: Sequence[Mapping[str, Any]], *, jobs: Optional[int] = None) -> List[Answer]:
+    def plan_from(self, states: Sequence[Mapping[str, Any]], *, jobs: int | None = None) -> list[Answer]:
         """Ask about states, in their order, over ``jobs`` or all cores.
 
         A state is a dictionary: ``trajectory_id``, ``frame``, ``position_in_world`` (x, y, z, metres), and optionally
@@ -87,7 +87,7 @@ def _plain(value: Any) -> Any:
     return value
 
 
-def _answer(found: Dict[str, Any], asked: Dict[str, Any]) -> Answer:
+def _answer(found: dict[str, Any], asked: dict[str, Any]) -> Answer:
     waypoints = found.get("waypoints") or []
     poses = [[*it["position_in_world"], it["pitch_deg"], it["yaw_deg"]] for it in waypoints]
     error, frame = found.get("error"), found.get("frame", asked.get("frame"))

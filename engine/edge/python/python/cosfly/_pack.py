@@ -9,7 +9,7 @@ import shutil
 import tempfile
 import threading
 from pathlib import Path
-from typing import Any, Container, Dict, List, Optional, Sequence, Tuple, Union
+from typing import Any, Container, Sequence
 
 import numpy as np
 
@@ -28,12 +28,12 @@ def pack(
     dataset: PathLike,
     out: PathLike,
     *,
-    size: Tuple[int, int] = (224, 126),
-    channels: Union[str, Sequence[str]] = ("rgb", "depth"),
-    split: Optional[str] = None,
-    role: Optional[str] = None,
-    trajectories: Union[None, str, Sequence[str]] = None,
-    jobs: Optional[int] = None,
+    size: tuple[int, int] = (224, 126),
+    channels: str | Sequence[str] = ("rgb", "depth"),
+    split: str | None = None,
+    role: str | None = None,
+    trajectories: str | Sequence[str] | None = None,
+    jobs: int | None = None,
     progress: Progress = True,
 ) -> "Pack":
     """Write a training pack: every frame of a dataset at ``size`` (width, height), one ``<channel>.npy`` per channel.
@@ -100,7 +100,7 @@ def _write(frames: Dataset, folder: Path, progress: Any) -> None:
     finally:
         for file in files.values():
             file.close()
-    places: Dict[str, int] = {}
+    places: dict[str, int] = {}
     for place, (name, _) in enumerate(frames._index):
         places.setdefault(name, place)
     about = {
@@ -124,10 +124,10 @@ class Pack(Dataset):
         if "size" in options:
             raise WrongType("a pack has the size that it was made with; leave out `size`, or make another pack with `cosfly.pack`")
         about, self._seal = _about(self.pack_path)
-        self._first: Dict[str, int] = about["first_frame"]
-        self._frames: Dict[str, Frames] = {}
+        self._first: dict[str, int] = about["first_frame"]
+        self._frames: dict[str, Frames] = {}
         options.setdefault("channels", tuple(about["channels"]))
-        self._source: Dict[str, Any] = about["dataset"]
+        self._source: dict[str, Any] = about["dataset"]
         super().__init__(dataset, size=tuple(about["size"]), **options)
         absent = [name for name, _ in self._index if name not in self._first]
         if absent or not self._index:
@@ -136,7 +136,7 @@ class Pack(Dataset):
         for name in self.channels:
             self._frames_of(name)
 
-    def _chosen(self, trajectories: Union[None, str, Sequence[str]]) -> Container[str]:
+    def _chosen(self, trajectories: str | Sequence[str] | None) -> Container[str]:
         """Those of the pack without others; of another dataset they would have other names."""
         if self._source["identity"] != self.identity:
             given = str(self._source["path"]), str(self._source["identity"])
@@ -153,7 +153,7 @@ class Pack(Dataset):
         """Place of each sample's picture in the arrays."""
         return np.array(self._rows_of(self._index), dtype=np.int64)
 
-    def _rows_of(self, frames: Sequence[Tuple[str, int]]) -> List[int]:
+    def _rows_of(self, frames: Sequence[tuple[str, int]]) -> list[int]:
         return [self._first[name] + int(frame) for name, frame in frames]
 
     def _frames_of(self, channel: str) -> "Frames":
@@ -168,14 +168,14 @@ class Pack(Dataset):
                 raise _cosfly.damaged_pack(os.fspath(path), f"its frames, height and width are not {expected}, as pack.json has them")
         return self._frames[channel]
 
-    def _images(self, frames: Any, channels: Sequence[str], size: Any) -> Dict[str, Any]:
+    def _images(self, frames: Any, channels: Sequence[str], size: Any) -> dict[str, Any]:
         if size is not None and tuple(size) != self.size:
             raise InvalidValue(f"the pack {self.pack_path} has pictures of {self.size}; another size takes another pack")
         self._places(frames)
         places = self._rows_of(frames)
         return {channel: self._stacked(places, channel) for channel in channels}
 
-    def _stacked(self, places: List[int], channel: str) -> np.ndarray:
+    def _stacked(self, places: list[int], channel: str) -> np.ndarray:
         frames = self._frames_of(channel)
         made = np.empty((len(places), *frames.shape), frames.dtype)
         first = 0
@@ -258,17 +258,17 @@ class Frames:
         if process == os.getpid():
             os.close(file)
 
-    def __getstate__(self) -> Dict[str, Any]:
+    def __getstate__(self) -> dict[str, Any]:
         state = {**self.__dict__, "_opened": (-1, -1)}
         state.pop("_lock")
         return state
 
-    def __setstate__(self, state: Dict[str, Any]) -> None:
+    def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
         self._lock = threading.Lock()
 
 
-def _about(pack: Path) -> Tuple[Dict[str, Any], str]:
+def _about(pack: Path) -> tuple[dict[str, Any], str]:
     """What ``pack.json`` says, and a digest of it."""
     path = pack / "pack.json"
     try:

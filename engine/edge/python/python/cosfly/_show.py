@@ -7,7 +7,7 @@ import html
 import shutil
 import sys
 import tempfile
-from typing import Any, Dict, Tuple
+from typing import Any
 
 from . import _cosfly
 
@@ -27,7 +27,7 @@ class Bars:
     def __enter__(self) -> "Bars":
         return self
 
-    def show(self, progress: Dict[str, Any]) -> None:
+    def show(self, progress: dict[str, Any]) -> None:
         """Show {name of the work: (done, all)}."""
         parts = [(name, int(done), int(whole)) for name, (done, whole) in progress.items()]
         if self.notebook:
@@ -72,7 +72,7 @@ def dataset_html(dataset: Any, pictures: int = 4) -> str:
     return "".join(parts)
 
 
-class Frame(Dict[str, Any]):
+class Frame(dict[str, Any]):
     """Images of a frame by channel; notebooks show them."""
 
     def png(self, channel: str) -> bytes:
@@ -141,7 +141,7 @@ def pictures_html(dataset: Any, trajectory_id: str) -> str:
         return preview(dataset.path, trajectory_id, out=scratch, progress=False)._repr_html_()
 
 
-def _thumbnail(dataset: Any, trajectory_id: str) -> Tuple[int, int]:
+def _thumbnail(dataset: Any, trajectory_id: str) -> tuple[int, int]:
     if hasattr(dataset, "pack_path"):
         return dataset.size
     width, height = dataset.size_of(trajectory_id)

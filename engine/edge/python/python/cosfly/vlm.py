@@ -24,6 +24,7 @@ from typing import Any
 import numpy as np
 
 from ._cosfly import ACTION, STATE
+from ._errors import InvalidValue
 
 SYSTEM = (
     "You fly a drone that follows a moving target. Answer with one JSON object of five numbers: velocity ahead, right and up in m/s (at most 12), "
@@ -83,7 +84,7 @@ def _act(observation: dict[str, Any], known: slice) -> np.ndarray:
         _malformed["all"] += 1
         print(f"malformed: {_malformed['all']} of {_malformed['answers']} answers; {fault}", file=sys.stderr, flush=True)
         if _malformed["row"] >= _MOST_MALFORMED:
-            raise ValueError(f"{_malformed['row']} malformed answers in a row, the last: {fault}")
+            raise InvalidValue(f"{_malformed['row']} malformed answers in a row, the last: {fault}")
     return np.tile(np.asarray(numbers or [0.0] * len(ACTION), np.float32), (_ROWS, 1))
 
 
