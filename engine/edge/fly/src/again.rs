@@ -2,7 +2,7 @@
 
 use crate::bundle::{Bundle, EpisodeRecord};
 use crate::flight::{FlownEpisode, fly_by};
-use crate::pilot::{Failure, Runnable};
+use crate::pilot::{PilotFailure, Runnable};
 use crate::suite::{EpisodeTask, Suite};
 use cosfly_diagnose::{Diagnostic, Fault, Result, counted};
 use cosfly_env::{Environment, EnvironmentSettings};
@@ -144,11 +144,11 @@ pub fn by_record(
         let step = environment.observation().step;
         match record.steps.get(step as usize) {
             // The policy failed here: the row says so.
-            None => Err(Failure::Answer(String::new())),
+            None => Err(PilotFailure::Answer(String::new())),
             Some(kept) => match kept.action {
                 // Latencies that were not measured are those of the card.
                 Some(action) => Ok((action, kept.latency_s.filter(|_| is_measured))),
-                None => Err(Failure::Gone(format!("step {} has no action where one is asked for", step + 1))),
+                None => Err(PilotFailure::Gone(format!("step {} has no action where one is asked for", step + 1))),
             },
         }
     })

@@ -1,7 +1,7 @@
 //! One episode, flown by a pilot: its [`Row`] and its log.
 
 use crate::log::LogLine;
-use crate::pilot::{Asked, Failure, Pilot};
+use crate::pilot::{Asked, Pilot, PilotFailure};
 use crate::suite::EpisodeTask;
 use cosfly_drone::Sensed;
 use cosfly_drone::quadrotor::TrackingError;
@@ -125,11 +125,11 @@ pub type Given = (Action, Option<f64>);
 /// Flies an episode by the actions that `ask` gives.
 ///
 /// # Errors
-/// The reason of [`Failure::Gone`].
+/// The reason of [`PilotFailure::Gone`].
 pub fn fly_by(
     task: &EpisodeTask,
     settings: EnvironmentSettings,
-    ask: &mut dyn FnMut(&Environment) -> Result<Given, Failure>,
+    ask: &mut dyn FnMut(&Environment) -> Result<Given, PilotFailure>,
 ) -> Result<FlownEpisode, String> {
     let mut environment = Environment::new(Arc::clone(&task.episode), settings);
     let mut policy_failure = None;
@@ -138,8 +138,8 @@ pub fn fly_by(
         let asked = environment.wants_action().then(|| ask(&environment)).transpose();
         let given = match asked {
             Ok(given) => given,
-            Err(Failure::Gone(reason)) => return Err(reason),
-            Err(Failure::Answer(reason)) => {
+            Err(PilotFailure::Gone(reason)) => return Err(reason),
+            Err(PilotFailure::Answer(reason)) => {
                 policy_failure = Some(format!("at step {}: {reason}", environment.observation().step));
                 break;
             }

@@ -11,7 +11,7 @@ use cosfly_experts::memo::Memo;
 use cosfly_experts::world::{check_same_town, world};
 use cosfly_film::Shooting;
 use cosfly_film::nearby::{
-    Candidate, CandidateRefusal, Candidates, Filming, NearbyBodies, NearbyWalk, Origin, Scenery, apart,
+    CandidateRefusal, Candidates, Filming, NearbyBodies, NearbyCandidate, NearbyWalk, Origin, Scenery, apart,
 };
 use cosfly_render::{Buildings, RenderConfig};
 use cosfly_stage::{
@@ -131,10 +131,10 @@ pub fn add(
 }
 
 /// Writes those who are near; `stages` are the items at port `others` by stage.
-fn put(outputs: &mut dyn OutputSink, near: &[Candidate], stages: &[&[Artifact]]) -> Result<()> {
+fn put(outputs: &mut dyn OutputSink, near: &[NearbyCandidate], stages: &[&[Artifact]]) -> Result<()> {
     let mut people = vec![];
     let mut bodies: Vec<NearbyBodies> = vec![];
-    for Candidate { instance, origin, .. } in near {
+    for NearbyCandidate { instance, origin, .. } in near {
         match origin {
             Origin::Walk(stage, item) => {
                 let artifact = &stages[*stage][*item];

@@ -10,7 +10,7 @@ use cosfly_domain::{TARGET_INSTANCE, Traffic};
 use cosfly_experts::codec;
 use cosfly_experts::world::{check_same_town, world};
 use cosfly_film::BodyOnTrack;
-use cosfly_film::nearby::{Candidate, Candidates};
+use cosfly_film::nearby::{Candidates, NearbyCandidate};
 use cosfly_flight::World;
 use cosfly_frames::Seed;
 use cosfly_schema::RenderedTrajectory;
@@ -178,6 +178,6 @@ pub fn people(inputs: &Inputs<'_>, world: &World, record: &RenderedTrajectory) -
         (seen.map_or(u32::MAX - number, |other| other.instance), BodyOnTrack::of(body, around.traffic.dt_s))
     });
     let target = (flight.track.radius_m > 0.0).then(|| (TARGET_INSTANCE, BodyOnTrack::target(&flight.track, target)));
-    let others = others.into_iter().map(|it| (it.instance, Candidate::into_body(it)));
+    let others = others.into_iter().map(|it| (it.instance, NearbyCandidate::into_body(it)));
     Ok(others.chain(of_traffic).chain(target).collect())
 }

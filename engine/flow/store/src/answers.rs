@@ -1,6 +1,6 @@
 //! Answers of services outside, and accounts of what was asked. Garbage collection keeps them: they cannot be computed again.
 
-use crate::fault::Step;
+use crate::fault::PublishStep;
 use crate::locks::lock_file;
 use crate::records;
 use crate::store::{Store, with_folder_of};
@@ -55,13 +55,13 @@ impl Answers for Store {
         {
             return Ok(first.to_owned());
         }
-        let temporary = self.write_temporary(&[&record], 0o644, Step::WriteDocument)?;
+        let temporary = self.write_temporary(&[&record], 0o644, PublishStep::WriteDocument)?;
         if !self.place_first(&temporary, &path).map_err(failed)? {
             if let Some(first) = self.answer(question) {
                 let _ = fs::remove_file(&temporary);
                 return Ok(first);
             }
-            self.move_into_place(&temporary, &path, Step::RenameDocument)?;
+            self.move_into_place(&temporary, &path, PublishStep::RenameDocument)?;
         }
         let _ = fs::remove_file(&temporary);
         sync_with_folder(&path).map_err(failed)?;
@@ -82,7 +82,7 @@ impl Answers for Store {
         };
         change(&mut spent)?;
         let record = records::encode_answer(account, &canonical_json(&spent));
-        self.write_file(&path, &record, Step::WriteDocument, Step::RenameDocument)
+        self.write_file(&path, &record, PublishStep::WriteDocument, PublishStep::RenameDocument)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Measured time of tasks on this machine, by stage, for predictions. No key and no output depends on it.
 
-use crate::fault::Step;
+use crate::fault::PublishStep;
 use crate::store::Store;
 use cosfly_diagnose::Result;
 use cosfly_fingerprint::Digest;
@@ -55,7 +55,7 @@ impl Store {
             let mut sum: Costs = known.unwrap_or_default();
             sum.add(costs);
             let text = serde_json::to_string(&sum).unwrap_or_default();
-            self.write_file(&path, text.as_bytes(), Step::WriteRun, Step::RenameRun)?;
+            self.write_file(&path, text.as_bytes(), PublishStep::WriteRun, PublishStep::RenameRun)?;
         }
         Ok(())
     }

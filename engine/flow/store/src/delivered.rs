@@ -2,7 +2,7 @@
 //!
 //! The record is in the store, not in the folder, so that two folders of one artifact are equal to the byte.
 
-use crate::fault::Step;
+use crate::fault::PublishStep;
 use crate::hex::{digest_of_hex, push_digest, push_quoted, unquoted};
 use crate::history::{seal, unsealed};
 use crate::side_by_side::{PER_THREAD, side_by_side};
@@ -120,7 +120,7 @@ impl Store {
     /// Records that the files of `folder` are verified. Without the record they are read again.
     pub(crate) fn remember_delivered(&self, folder: &Path, delivered: &Delivered) -> Result<()> {
         let path = self.delivered_path(folder);
-        self.write_file(&path, delivered.encode().as_bytes(), Step::WriteRun, Step::RenameRun)
+        self.write_file(&path, delivered.encode().as_bytes(), PublishStep::WriteRun, PublishStep::RenameRun)
     }
 
     fn delivered_path(&self, folder: &Path) -> std::path::PathBuf {

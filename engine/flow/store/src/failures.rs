@@ -1,6 +1,6 @@
 //! Failures of tasks, so that others can tell them: the run whose tasks ran on a cluster, where nobody reads standard error, and the viewer.
 
-use crate::fault::Step;
+use crate::fault::PublishStep;
 use crate::store::Store;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::{Digest, canonical_json};
@@ -51,7 +51,7 @@ impl Store {
         };
         let bytes = canonical_json(&failure).into_bytes();
         self.upload(&self.failure_path(plan), &bytes)?;
-        self.write_file(&self.failure_path(plan), &bytes, Step::WriteRun, Step::RenameRun)
+        self.write_file(&self.failure_path(plan), &bytes, PublishStep::WriteRun, PublishStep::RenameRun)
     }
 
     /// Failure of the task `plan` when it ran last; `None` where it did not fail.

@@ -4,7 +4,7 @@ use std::io;
 
 /// A step of publishing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Step {
+pub enum PublishStep {
     /// Writes a blob to a temporary file.
     WriteBlob,
     /// Renames a finished temporary file to a blob.
@@ -32,7 +32,7 @@ pub enum Step {
 /// Source of faults: it may fail a step, as a full or broken disk would.
 pub trait FaultPoints: Send + Sync {
     /// Called before every step; an error fails the step.
-    fn before(&self, step: Step) -> io::Result<()>;
+    fn before(&self, step: PublishStep) -> io::Result<()>;
 }
 
 /// Source without faults.
@@ -40,7 +40,7 @@ pub trait FaultPoints: Send + Sync {
 pub(crate) struct NoFaults;
 
 impl FaultPoints for NoFaults {
-    fn before(&self, _step: Step) -> io::Result<()> {
+    fn before(&self, _step: PublishStep) -> io::Result<()> {
         Ok(())
     }
 }

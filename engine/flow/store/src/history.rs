@@ -1,6 +1,6 @@
 //! Tasks of earlier runs of a recipe, for `cosfly why` and as roots of garbage collection.
 
-use crate::fault::Step;
+use crate::fault::PublishStep;
 use crate::hex::{digest_of_hex, push_digest, push_quoted, unquoted};
 use crate::layout::read_dir_or_nothing;
 use crate::store::Store;
@@ -112,7 +112,7 @@ impl Store {
             return Ok(());
         }
         let next = numbers.last().map_or(1, |n| n.saturating_add(1));
-        self.write_file(&folder.join(file_name(next)), text.as_bytes(), Step::WriteRun, Step::RenameRun)?;
+        self.write_file(&folder.join(file_name(next)), text.as_bytes(), PublishStep::WriteRun, PublishStep::RenameRun)?;
         numbers.push(next);
         for old in numbers.iter().rev().skip(REMEMBERED) {
             let _ = fs::remove_file(folder.join(file_name(*old)));

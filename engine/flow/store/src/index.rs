@@ -4,7 +4,7 @@
 //! folder unchanged since then has lost no file, so its files need not be checked one by one. (Damage inside a file is
 //! found when the file is read.)
 
-use crate::fault::Step;
+use crate::fault::PublishStep;
 use crate::index_format::{Entry, FolderTimes, Index, SHARDS, Stamps, encode};
 use crate::layout::{Area, Layout};
 use crate::packs::pack_path;
@@ -123,12 +123,12 @@ impl Store {
         entries.sort_unstable_by_key(|(plan, ..)| **plan);
         let pieces = encode(run, &times, entries.into_iter());
         let path = self.layout.folder("index").join(recipe);
-        self.write_pieces(&path, &pieces.each_ref().map(Vec::as_slice), Step::WriteRun, Step::RenameRun)
+        self.write_pieces(&path, &pieces.each_ref().map(Vec::as_slice), PublishStep::WriteRun, PublishStep::RenameRun)
     }
 
     /// Current time by the clock of the store's file system.
     fn file_system_time(&self) -> Result<u64> {
-        let probe = self.write_temporary(&[], 0o644, Step::WriteRun)?;
+        let probe = self.write_temporary(&[], 0o644, PublishStep::WriteRun)?;
         let now = stamp(&probe);
         let _ = fs::remove_file(&probe);
         Ok(now)

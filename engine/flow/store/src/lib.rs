@@ -69,7 +69,7 @@ mod write_through;
 
 pub use blobs::digest_of_file;
 pub use costs::Costs;
-pub use fault::{FaultPoints, Step};
+pub use fault::{FaultPoints, PublishStep};
 pub use folder::VERSION_FILE;
 pub use garbage::{GarbageOptions, GarbageReport, collect_garbage, pin};
 pub use history::{PastRun, PastStage};

@@ -1,6 +1,6 @@
 //! Reading of a store from its packs.
 
-use crate::fault::Step;
+use crate::fault::PublishStep;
 use crate::layout::Area;
 use crate::mutex::locked;
 use crate::pack::{Pack, heads_of_shard};
@@ -45,7 +45,7 @@ impl Store {
     /// Gives a packed blob a file of its own; true where it has one now.
     pub(crate) fn unpack(&self, blob: &BlobRef, path: &Path) -> bool {
         let Some(bytes) = self.packed(Area::Blobs, &blob.digest) else { return false };
-        let written = self.write_temporary(&[&bytes], 0o444, Step::WriteBlob);
-        written.and_then(|temporary| self.move_into_place(&temporary, path, Step::RenameBlob)).is_ok()
+        let written = self.write_temporary(&[&bytes], 0o444, PublishStep::WriteBlob);
+        written.and_then(|temporary| self.move_into_place(&temporary, path, PublishStep::RenameBlob)).is_ok()
     }
 }

@@ -1,7 +1,7 @@
 //! Sink for the blobs of a running task, and the publication of its action.
 
 use crate::digesting::DigestingFile;
-use crate::fault::Step;
+use crate::fault::PublishStep;
 use crate::layout::Area;
 use crate::names::is_relative_path;
 use crate::records::{self, ActionRecord};
@@ -50,7 +50,7 @@ impl<'s> TaskSink<'s> {
         for (blob, temporary) in self.outputs.values_mut() {
             if let Some(path) = temporary.take() {
                 // This may replace a blob: its bytes are the same, unless they are damaged.
-                self.store.move_into_place(&path, &self.store.blob_path(blob), Step::RenameBlob)?;
+                self.store.move_into_place(&path, &self.store.blob_path(blob), PublishStep::RenameBlob)?;
                 self.store.mark_checked(blob.digest);
                 self.store.upload_blob(&self.store.blob_path(blob), &blob.digest, blob.bytes)?;
             }
@@ -97,7 +97,7 @@ impl<'s> TaskSink<'s> {
 impl OutputSink for TaskSink<'_> {
     fn put(&mut self, name: &str, bytes: &[u8]) -> Result<()> {
         self.claim(name)?;
-        let temporary = self.store.write_temporary(&[bytes], 0o444, Step::WriteBlob)?;
+        let temporary = self.store.write_temporary(&[bytes], 0o444, PublishStep::WriteBlob)?;
         let blob = BlobRef { digest: Digest::of(bytes), bytes: bytes.len() as u64 };
         self.outputs.insert(name.to_owned(), (blob, Some(temporary)));
         Ok(())
@@ -109,7 +109,7 @@ impl OutputSink for TaskSink<'_> {
         let refused = |error: &io::Error| {
             Diagnostic::io(format!("write output `{name}` to the store `{}`", self.store.root().display()), error)
         };
-        let file = self.store.faults.before(Step::WriteBlob).and_then(|()| create_file(&path, 0o444));
+        let file = self.store.faults.before(PublishStep::WriteBlob).and_then(|()| create_file(&path, 0o444));
         let streamed = file.map_err(|error| refused(&error)).and_then(|file| {
             let mut writer = BufWriter::with_capacity(1 << 16, DigestingFile::new(file));
             let written = write(&mut writer);
@@ -164,10 +164,10 @@ impl Store {
                 self.diverged(action, earlier, &record)
             };
         }
-        let temporary = self.write_temporary(&[&records::encode(action, &record)], 0o644, Step::WriteAction)?;
+        let temporary = self.write_temporary(&[&records::encode(action, &record)], 0o644, PublishStep::WriteAction)?;
         let linked = self
             .faults
-            .before(Step::RenameAction)
+            .before(PublishStep::RenameAction)
             .and_then(|()| with_folder_of(&path, || fs::hard_link(&temporary, &path)));
         let settled = |record| Ok(Settled { record: Arc::new(record), divergence: None });
         if linked.is_ok() {
@@ -187,12 +187,12 @@ impl Store {
             }
             Some(earlier) => {
                 // The earlier bytes are lost.
-                self.move_into_place(&temporary, &path, Step::RenameAction)?;
+                self.move_into_place(&temporary, &path, PublishStep::RenameAction)?;
                 let divergence = self.report_divergence(action, &record, &earlier)?;
                 Ok(Settled { record: Arc::new(record), divergence: Some(divergence) })
             }
             None => {
-                self.move_into_place(&temporary, &path, Step::RenameAction)?;
+                self.move_into_place(&temporary, &path, PublishStep::RenameAction)?;
                 settled(record)
             }
         }
@@ -231,7 +231,7 @@ impl Store {
         }));
         let name = format!("{action}-{}", Digest::of(report.as_bytes()).short());
         let path = self.layout.folder("divergence").join(name);
-        self.write_file(&path, report.as_bytes(), Step::WriteAction, Step::RenameAction)?;
+        self.write_file(&path, report.as_bytes(), PublishStep::WriteAction, PublishStep::RenameAction)?;
         Ok(Diagnostic::new(
             "nondeterministic-stage",
             Fault::Bug,

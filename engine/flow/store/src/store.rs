@@ -2,7 +2,7 @@
 
 use crate::decoded::DecodeCache;
 use crate::durability::Durability;
-use crate::fault::{FaultPoints, NoFaults, Step};
+use crate::fault::{FaultPoints, NoFaults, PublishStep};
 use crate::layout::{Area, Layout};
 use crate::locks::{TaskLock, lock_file};
 use crate::packs::Packs;
@@ -198,7 +198,7 @@ impl Store {
         let path = self.layout.file(Area::Done, plan);
         let record = records::encode_done(plan, action);
         self.upload(&path, &record)?;
-        self.write_file(&path, &record, Step::WriteDone, Step::RenameDone)
+        self.write_file(&path, &record, PublishStep::WriteDone, PublishStep::RenameDone)
     }
 
     /// Stores a plan document under its own digest, unless it is there already.
@@ -211,7 +211,7 @@ impl Store {
         if there.is_some_and(|there| there == document.as_bytes()) {
             return Ok(());
         }
-        self.write_file(&path, document.as_bytes(), Step::WriteDocument, Step::RenameDocument)
+        self.write_file(&path, document.as_bytes(), PublishStep::WriteDocument, PublishStep::RenameDocument)
     }
 
     /// Plan document; `None` where it is absent or damaged.
@@ -227,7 +227,7 @@ impl Store {
     pub fn put_build(&self, definition: &Digest, document: &str) -> Result<()> {
         let path = self.layout.file(Area::Builds, definition);
         self.upload(&path, document.as_bytes())?;
-        self.write_file(&path, document.as_bytes(), Step::WriteDocument, Step::RenameDocument)
+        self.write_file(&path, document.as_bytes(), PublishStep::WriteDocument, PublishStep::RenameDocument)
     }
 
     /// Description by which the stage of a plan definition is built; `None` where it is absent or damaged.
@@ -240,23 +240,29 @@ impl Store {
     /// Makes everything published so far durable; tells errors of the remote.
     pub fn sync(&self) -> Result<()> {
         self.check_remote()?;
-        let synced = self.faults.before(Step::Sync).and_then(|()| self.durability.sync());
+        let synced = self.faults.before(PublishStep::Sync).and_then(|()| self.durability.sync());
         synced.map_err(|error| Diagnostic::io(format!("sync `{}` to disk", self.root().display()), &error))
     }
 
     /// Writes a small temporary file and renames it into place.
-    pub(crate) fn write_file(&self, path: &Path, bytes: &[u8], write: Step, rename: Step) -> Result<()> {
+    pub(crate) fn write_file(&self, path: &Path, bytes: &[u8], write: PublishStep, rename: PublishStep) -> Result<()> {
         self.write_pieces(path, &[bytes], write, rename)
     }
 
     /// Writes a temporary file of some pieces and renames it into place.
-    pub(crate) fn write_pieces(&self, path: &Path, pieces: &[&[u8]], write: Step, rename: Step) -> Result<()> {
+    pub(crate) fn write_pieces(
+        &self,
+        path: &Path,
+        pieces: &[&[u8]],
+        write: PublishStep,
+        rename: PublishStep,
+    ) -> Result<()> {
         let temporary = self.write_temporary(pieces, 0o644, write)?;
         self.move_into_place(&temporary, path, rename)
     }
 
     /// Writes a temporary file of some pieces; a failed one is removed.
-    pub(crate) fn write_temporary(&self, pieces: &[&[u8]], mode: u32, step: Step) -> Result<PathBuf> {
+    pub(crate) fn write_temporary(&self, pieces: &[&[u8]], mode: u32, step: PublishStep) -> Result<PathBuf> {
         let path = self.scratch.next_path();
         let created = self.faults.before(step).and_then(|()| create_file(&path, mode));
         let written = created.and_then(|mut file| pieces.iter().try_for_each(|piece| file.write_all(piece)));
@@ -267,7 +273,7 @@ impl Store {
     }
 
     /// Renames a temporary file to `path`, creating the folder where needed; removes the file on failure.
-    pub(crate) fn move_into_place(&self, temporary: &Path, path: &Path, step: Step) -> Result<()> {
+    pub(crate) fn move_into_place(&self, temporary: &Path, path: &Path, step: PublishStep) -> Result<()> {
         let moved = self.faults.before(step).and_then(|()| {
             let moved = with_folder_of(path, || fs::rename(temporary, path));
             // A folder may exist in place of the file.

@@ -5,7 +5,7 @@
 //! objects but garbage collection. An error while something is looked for counts as absent at first and is told at the next
 //! [`Store::check_remote`], so that no error turns into work that is done twice without a word.
 
-use crate::fault::Step;
+use crate::fault::PublishStep;
 use crate::mutex::locked;
 use crate::remote::Remote;
 use crate::store::Store;
@@ -59,7 +59,9 @@ impl Store {
         // After an error that was not told yet, nothing more is asked: a server that hangs would hang every time.
         let remote = self.remote.as_ref().filter(|_| locked(&self.remote_trouble).is_none())?;
         let fetched = remote.get(&self.object(path)).and_then(|bytes| match bytes {
-            Some(bytes) => self.write_file(path, &bytes, Step::WriteBlob, Step::RenameBlob).map(|()| Some(bytes)),
+            Some(bytes) => {
+                self.write_file(path, &bytes, PublishStep::WriteBlob, PublishStep::RenameBlob).map(|()| Some(bytes))
+            }
             None => Ok(None),
         });
         self.or_trouble(fetched).flatten()

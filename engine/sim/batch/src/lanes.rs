@@ -65,7 +65,7 @@ struct Projected {
 
 /// A box that may be seen.
 #[derive(Clone, Copy)]
-pub struct Candidate {
+pub struct LaneCandidate {
     /// Its number among its neighbours.
     pub index: u32,
     /// The part of the canvas that it may cover.
@@ -91,7 +91,7 @@ impl BoxLanes {
     }
 
     /// Appends the boxes that cover a pixel centre of the canvas and are not hidden.
-    pub fn gather(&self, level: Level, eye: &Eye, canvas: &Canvas, hidden: &Hidden, found: &mut Vec<Candidate>) {
+    pub fn gather(&self, level: Level, eye: &Eye, canvas: &Canvas, hidden: &Hidden, found: &mut Vec<LaneCandidate>) {
         let origin = eye.pixels_ahead(eye.see(self.origin_in_world)).as_vec3().to_array();
         let mut projected = Projected::default();
         for (number, eight) in self.eights.iter().enumerate() {
@@ -100,7 +100,7 @@ impl BoxLanes {
                 let Some(part) = projected.parts.get(k) else { continue };
                 let nearest = 1.0 / projected.nearest_m[k].max(NEAR_M as f32);
                 if !hidden.hides(canvas, part, nearest) {
-                    found.push(Candidate { index: (LANES * number + k) as u32, part, nearest });
+                    found.push(LaneCandidate { index: (LANES * number + k) as u32, part, nearest });
                 }
             }
         }

@@ -9,7 +9,7 @@ use crate::eye::{Eye, Linear, NEAR_M, scaled};
 use crate::faces::{DrawnFace, SKY};
 use crate::ground::{FAR_OFF_PX, Ground, Pack, Polygon, SeenPack};
 use crate::hidden::Hidden;
-use crate::lanes::Candidate;
+use crate::lanes::LaneCandidate;
 use crate::on_request;
 use crate::outputs::Outputs;
 use crate::raster::{HalfPlanes, MOST_LINES, SEAM_PX, Surface, draw_box, draw_lane, draw_polygon, draw_within};
@@ -32,8 +32,8 @@ pub struct Painter {
     canvas: Canvas,
     hidden: Hidden,
     faces: Vec<DrawnFace>,
-    groups: Vec<Candidate>,
-    candidates: Vec<Candidate>,
+    groups: Vec<LaneCandidate>,
+    candidates: Vec<LaneCandidate>,
     seen: SeenPack,
     wardrobe: Wardrobe,
     /// Parts of the body that is drawn.
@@ -112,7 +112,7 @@ impl Painter {
             self.candidates[start..].iter_mut().for_each(|candidate| candidate.index += first);
         }
         near_first(&mut self.candidates);
-        for Candidate { index, part, nearest } in &self.candidates {
+        for LaneCandidate { index, part, nearest } in &self.candidates {
             if !hidden.hides(canvas, *part, *nearest)
                 && let Some(shape) = boxes.on_screen(*index, eye, &mut self.faces)
             {
@@ -286,7 +286,7 @@ fn between<const BLOCKS: usize>(points: &[[f32; 2]], side: f32) -> HalfPlanes<BL
 }
 
 /// From near to far: greater inverse depths first; those of positive floats are ordered as their bits.
-fn near_first(candidates: &mut [Candidate]) {
+fn near_first(candidates: &mut [LaneCandidate]) {
     candidates.sort_unstable_by_key(|candidate| (!candidate.nearest.to_bits(), candidate.index));
 }
 

@@ -32,7 +32,7 @@ pub struct NearbyBodies {
 }
 
 /// A person or vehicle that may be near.
-pub struct Candidate {
+pub struct NearbyCandidate {
     /// Id in instance images.
     pub instance: u32,
     /// Origin of its track.
@@ -66,7 +66,7 @@ pub struct Candidates<'a> {
     largest_object: u32,
     begins_s: f64,
     /// The candidates.
-    pub all: Vec<Candidate>,
+    pub all: Vec<NearbyCandidate>,
     /// Number of those whose walk crosses the target's body.
     pub left_out: usize,
 }
@@ -125,7 +125,7 @@ impl<'a> Candidates<'a> {
 
     fn add(&mut self, instance: u32, origin: Origin, person: BodyOnTrack) {
         let (place, person) = (self.all.len(), person.since(self.begins_s));
-        self.all.push(Candidate { instance, place, origin, person });
+        self.all.push(NearbyCandidate { instance, place, origin, person });
     }
 }
 
@@ -135,7 +135,7 @@ const SENSED_M: f64 = 150.0;
 impl Candidates<'_> {
     /// Those whom sensors along the flight may meet and who keep out of each other's way: first those whom pictures show by these
     /// instance ids.
-    pub fn sensed(self, seen: &BTreeSet<u32>) -> Vec<Candidate> {
+    pub fn sensed(self, seen: &BTreeSet<u32>) -> Vec<NearbyCandidate> {
         let Self { flight, target, mut all, .. } = self;
         all.retain(|candidate| {
             let states = candidate.person.states(&flight.track);
@@ -151,7 +151,7 @@ impl Candidates<'_> {
     }
 }
 
-impl Candidate {
+impl NearbyCandidate {
     /// The person or vehicle.
     pub fn into_body(self) -> BodyOnTrack {
         self.person
@@ -211,18 +211,22 @@ impl Origin {
 
 /// Leaves out everybody who would walk through the target or through somebody before them: those whose tracks were made apart
 /// from each other do not know of each other. More people change nothing for those before them.
-pub fn apart(mut near: Vec<Candidate>, trajectory: &Trajectory, target: Option<&Followed>) -> Vec<Candidate> {
+pub fn apart(
+    mut near: Vec<NearbyCandidate>,
+    trajectory: &Trajectory,
+    target: Option<&Followed>,
+) -> Vec<NearbyCandidate> {
     let track = &trajectory.track;
     let flown_at = BodyOnTrack::target(track, target);
     let target_states = flown_at.states(track);
     near.sort_by_key(|candidate| candidate.place);
-    let mut kept: Vec<(Candidate, Vec<Option<TargetState>>)> = vec![];
+    let mut kept: Vec<(NearbyCandidate, Vec<Option<TargetState>>)> = vec![];
     for candidate in near {
         let states = candidate.person.states(track);
         let (origin, own) = (&candidate.origin, (candidate.person.plan(), &states[..]));
         let meets_target =
             track.radius_m > 0.0 && !origin.is_with_target(target) && touch((flown_at.plan(), &target_states), own);
-        let meets = |(other, others): &(Candidate, Vec<_>)| {
+        let meets = |(other, others): &(NearbyCandidate, Vec<_>)| {
             !origin.is_with(&other.origin) && touch((other.person.plan(), others), own)
         };
         if !meets_target && !kept.iter().any(meets) {
@@ -238,7 +242,11 @@ impl Filming<'_> {
     ///
     /// # Errors
     /// Those of `check`, which is called before each frame.
-    pub fn near(&self, mut others: Vec<Candidate>, check: &dyn Fn() -> Result<()>) -> Result<Vec<Candidate>> {
+    pub fn near(
+        &self,
+        mut others: Vec<NearbyCandidate>,
+        check: &dyn Fn() -> Result<()>,
+    ) -> Result<Vec<NearbyCandidate>> {
         let Self { shooting, scenery, flight, .. } = self;
         let effects = self.config.effects(shooting.camera);
         let (camera, moments_s): (Camera, Vec<f64>) = (effects.ideal_camera(), effects.moments_s());
@@ -254,7 +262,7 @@ impl Filming<'_> {
                 for pose in effects.poses(film.pose(frame, *offset_s)) {
                     let outlook = Outlook::new(&camera, &shooting.weather, &pose);
                     let eye_in_world = pose.position_in_world;
-                    let matters = |other: &mut Candidate| {
+                    let matters = |other: &mut NearbyCandidate| {
                         let walker = other.person.figure(rate.time_s(frame) + offset_s);
                         let Some(walker) = walker else { return false };
                         (outlook.may_show(&walker) || body_rays::is_before(&walker, eye_in_world, &target))

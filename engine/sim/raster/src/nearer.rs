@@ -1,7 +1,7 @@
 //! Hiding of shapes by others, told for whole shapes: the frame so far in tiles of pixels.
 
 use crate::eye::Eye;
-use crate::visibility::{NEAR_M, Screen, Visibility, bounds};
+use crate::visibility::{NEAR_M, Screen, VisibilityBuffer, bounds};
 use cosfly_frames::{DVec3, simd_kernel};
 
 /// Size of a tile, pixels.
@@ -16,7 +16,7 @@ pub struct Nearer {
 
 impl Nearer {
     /// Measures the tiles of a drawing.
-    pub fn measure(&mut self, drawn: &Visibility) {
+    pub fn measure(&mut self, drawn: &VisibilityBuffer) {
         let (width, height) = drawn.size();
         self.columns = width.div_ceil(TILE[0]);
         self.least.clear();

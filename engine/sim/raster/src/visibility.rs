@@ -86,7 +86,7 @@ impl Screen {
 }
 
 /// Nearest face at each pixel centre.
-pub struct Visibility {
+pub struct VisibilityBuffer {
     width: usize,
     height: usize,
     /// Inverse depth with the drawing bias in it, 1/m; 0 where nothing was drawn.
@@ -99,7 +99,7 @@ pub struct Visibility {
     dirty_rows: (usize, usize),
 }
 
-impl Visibility {
+impl VisibilityBuffer {
     /// Width and height, pixels.
     pub fn size(&self) -> (usize, usize) {
         (self.width, self.height)
@@ -455,7 +455,7 @@ mod tests {
         Screen { width: 40, height: 30, focal_px: 20.0, center_u: 20.0, center_v: 15.0 }
     }
 
-    fn draw(buffer: &mut Visibility, corners: &[DVec3], face: u32) {
+    fn draw(buffer: &mut VisibilityBuffer, corners: &[DVec3], face: u32) {
         let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
         if let Some(plane) = PlaneOnScreen::new(&screen(), normal, corners[0]) {
             buffer.draw_polygon(&screen(), corners, &plane, 0.0, face);
@@ -469,7 +469,7 @@ mod tests {
         let counts: Vec<usize> = [vec![[a, b, c]], vec![[b, a, d]], vec![[a, b, c], [b, a, d]]]
             .iter()
             .map(|triangles| {
-                let mut buffer = Visibility::new(40, 30);
+                let mut buffer = VisibilityBuffer::new(40, 30);
                 triangles.iter().for_each(|triangle| draw(&mut buffer, triangle, 1));
                 buffer.face.iter().filter(|&&face| face == 1).count()
             })
@@ -480,7 +480,7 @@ mod tests {
 
     #[test]
     fn a_polygon_across_the_near_plane_keeps_its_front_part() {
-        let mut buffer = Visibility::new(40, 30);
+        let mut buffer = VisibilityBuffer::new(40, 30);
         let floor = [[-5.0, -9.0], [50.0, -9.0], [50.0, 9.0], [-5.0, 9.0]].map(|[x, y]| DVec3::new(x, y, -1.0));
         draw(&mut buffer, &floor, 7);
         assert_eq!(buffer.face[29 * 40 + 20], 7);
@@ -489,7 +489,7 @@ mod tests {
 
     #[test]
     fn clearing_forgets_everything_drawn() {
-        let mut buffer = Visibility::new(40, 30);
+        let mut buffer = VisibilityBuffer::new(40, 30);
         let wall = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[y, z]| DVec3::new(3.0, y, z));
         draw(&mut buffer, &wall, 3);
         assert!(buffer.face.contains(&3));

@@ -32,7 +32,7 @@ use cosfly_materials::parts::BOX_FACES;
 use cosfly_optics::Glass;
 use cosfly_raster::eye::Eye;
 use cosfly_raster::nearer::Nearer;
-use cosfly_raster::visibility::{PlaneOnScreen, Screen, Visibility};
+use cosfly_raster::visibility::{PlaneOnScreen, Screen, VisibilityBuffer};
 
 /// Which parts of a frame [`Renderer::render_parts`] makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,8 +50,8 @@ pub struct Renderer {
     camera: Camera,
     screen: Screen,
     images: FrameImages,
-    nearest: Visibility,
-    alone: Visibility,
+    nearest: VisibilityBuffer,
+    alone: VisibilityBuffer,
     nearer: Nearer,
     faces: Vec<DrawnFace>,
     /// First face of each part of a body, of faces that were found elsewhere.
@@ -96,8 +96,8 @@ impl Renderer {
                 instance: vec![0; pixels],
                 on_request: Vec::new(),
             },
-            nearest: Visibility::new(screen.width, screen.height),
-            alone: Visibility::new(screen.width, screen.height),
+            nearest: VisibilityBuffer::new(screen.width, screen.height),
+            alone: VisibilityBuffer::new(screen.width, screen.height),
             nearer: Nearer::default(),
             faces: Vec::new(),
             first_faces: Vec::new(),

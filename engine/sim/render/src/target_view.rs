@@ -5,7 +5,7 @@ use cosfly_domain::{BodyView, FrameImages, PixelBox, TARGET_INSTANCE, TargetView
 use cosfly_figures::FigureInPicture;
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
-use cosfly_raster::visibility::{NO_FACE, Visibility};
+use cosfly_raster::visibility::{NO_FACE, VisibilityBuffer};
 
 /// The view of a target that is not in the image.
 pub(crate) const NOT_IN_VIEW: TargetView = TargetView {
@@ -19,7 +19,7 @@ pub(crate) const NOT_IN_VIEW: TargetView = TargetView {
 };
 
 /// Indices of the pixels that the target would cover without obstacles, ascending.
-pub(crate) fn covered_pixels(alone: &Visibility, width: usize, covered: &mut Vec<u32>) {
+pub(crate) fn covered_pixels(alone: &VisibilityBuffer, width: usize, covered: &mut Vec<u32>) {
     covered.clear();
     let (first_row, end_row) = alone.drawn_rows();
     let pixels = first_row * width..end_row * width;

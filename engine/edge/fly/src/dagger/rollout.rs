@@ -2,7 +2,7 @@
 
 use super::kept::ObservationKeeper;
 use crate::experts::{KnownFlight, LOOK_AHEAD_S};
-use crate::pilot::{Asked, Failure, Pilot};
+use crate::pilot::{Asked, Pilot, PilotFailure};
 use crate::suite::EpisodeTask;
 use cosfly_diagnose::Result;
 use cosfly_domain::PlanOutcome;
@@ -99,9 +99,9 @@ pub fn rollout(
         let expert = way.as_ref().map(|(plan, seen)| (expert_action(&environment, plan), *seen));
         let own = match pilot.act(&environment) {
             Ok(action) => action,
-            Err(Failure::Gone(reason)) => return Ok(Attempt::Gone(reason)),
-            Err(Failure::Answer(reason)) if !pilot.has_answered() => return Ok(Attempt::Unanswered(reason)),
-            Err(Failure::Answer(reason)) => {
+            Err(PilotFailure::Gone(reason)) => return Ok(Attempt::Gone(reason)),
+            Err(PilotFailure::Answer(reason)) if !pilot.has_answered() => return Ok(Attempt::Unanswered(reason)),
+            Err(PilotFailure::Answer(reason)) => {
                 rollout.policy_failure = Some(format!("at step {}: {reason}", observation.step));
                 break;
             }

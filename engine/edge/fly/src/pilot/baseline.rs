@@ -1,6 +1,6 @@
 //! Baselines as pilots.
 
-use super::seam::{Failure, Pilot};
+use super::seam::{Pilot, PilotFailure};
 use cosfly_env::policies::{Knowledge, Variation, baseline};
 use cosfly_env::{Action, Environment, Policy};
 
@@ -24,8 +24,8 @@ impl Pilot for BaselinePilot {
         Ok(())
     }
 
-    fn act(&mut self, environment: &Environment) -> Result<Action, Failure> {
-        let policy = self.policy.as_mut().ok_or_else(|| Failure::Gone("the episode was not begun".to_owned()))?;
+    fn act(&mut self, environment: &Environment) -> Result<Action, PilotFailure> {
+        let policy = self.policy.as_mut().ok_or_else(|| PilotFailure::Gone("the episode was not begun".to_owned()))?;
         Ok(policy.act(environment))
     }
 }

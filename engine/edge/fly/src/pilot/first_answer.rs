@@ -3,7 +3,7 @@
 use super::manners::Manners;
 use super::open::open;
 use super::place::Place;
-use super::seam::{Failure, Pilot};
+use super::seam::{Pilot, PilotFailure};
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_env::policies::Knowledge;
 use cosfly_env::{Action, Environment};
@@ -64,7 +64,7 @@ impl Pilot for Asked<'_> {
         self.pilot.begin(environment, knowledge)
     }
 
-    fn act(&mut self, environment: &Environment) -> Result<Action, Failure> {
+    fn act(&mut self, environment: &Environment) -> Result<Action, PilotFailure> {
         let action = self.pilot.act(environment)?;
         self.first.tell();
         Ok(action)

@@ -22,5 +22,5 @@ pub use onnx::{FARTHEST_M, OnnxPolicy, units_of};
 pub use open::open;
 pub use place::Place;
 pub use runnable::Runnable;
-pub use seam::{Failure, Pilot};
+pub use seam::{Pilot, PilotFailure};
 pub use source::source_of;

@@ -4,7 +4,7 @@ use super::answer::PolicyAnswer;
 use super::manners::Manners;
 use super::process::{Process, Silence, Told};
 use super::question::Question;
-use super::seam::{Failure, Pilot, late};
+use super::seam::{Pilot, PilotFailure, late};
 use crate::wire;
 use cosfly_env::policies::Knowledge;
 use cosfly_env::{Action, Environment};
@@ -58,19 +58,22 @@ impl PythonPilot {
         Err(cannot(&self.manners.end_of(&why, KEPT_OF_LOADING)))
     }
 
-    fn receive(&mut self, within: Duration) -> Result<Vec<u8>, Failure> {
-        let process = self.process.as_mut().ok_or_else(|| Failure::Gone("there is no process".to_owned()))?;
+    fn receive(&mut self, within: Duration) -> Result<Vec<u8>, PilotFailure> {
+        let process = self.process.as_mut().ok_or_else(|| PilotFailure::Gone("there is no process".to_owned()))?;
         let failure = match process.receive(within) {
             Ok(Told::Bytes(bytes)) => return Ok(bytes),
             // The process goes on.
             Ok(Told::Text(text)) => {
-                return Err(Failure::Answer(format!("the policy failed: {}", self.manners.end_of(&text, KEPT))));
+                return Err(PilotFailure::Answer(format!("the policy failed: {}", self.manners.end_of(&text, KEPT))));
             }
-            Ok(Told::TooLong) => Failure::Answer(wire::too_long()),
-            Err(Silence::Late) => Failure::Answer(late(within)),
+            Ok(Told::TooLong) => PilotFailure::Answer(wire::too_long()),
+            Err(Silence::Late) => PilotFailure::Answer(late(within)),
             Err(Silence::Ended) => {
                 let words = process.last_words();
-                Failure::Gone(format!("the process of the policy {}", self.manners.end_of(&words, KEPT_OF_LOADING)))
+                PilotFailure::Gone(format!(
+                    "the process of the policy {}",
+                    self.manners.end_of(&words, KEPT_OF_LOADING)
+                ))
             }
         };
         self.process = None;
@@ -84,23 +87,23 @@ impl Pilot for PythonPilot {
         if self.process.is_some() { Ok(()) } else { self.start() }
     }
 
-    fn act(&mut self, environment: &Environment) -> Result<Action, Failure> {
+    fn act(&mut self, environment: &Environment) -> Result<Action, PilotFailure> {
         let every = self.manners.every;
         if let Some(action) = self.answer.as_ref().and_then(|answer| answer.action(environment, every)) {
             return Ok(action);
         }
         let question = self.question.bytes(environment);
-        let process = self.process.as_ref().ok_or_else(|| Failure::Gone("there is no process".to_owned()))?;
+        let process = self.process.as_ref().ok_or_else(|| PilotFailure::Gone("there is no process".to_owned()))?;
         if process.has_told() {
             self.process = None;
-            return Err(Failure::Answer("the policy answers more often than it is asked".to_owned()));
+            return Err(PilotFailure::Answer("the policy answers more often than it is asked".to_owned()));
         }
         process.ask(question);
         let message = self.receive(self.manners.timeout)?;
-        let message = wire::decode(&message).map_err(Failure::Answer)?;
-        let answer = PolicyAnswer::read(&message, environment, self.manners.actions).map_err(Failure::Answer)?;
+        let message = wire::decode(&message).map_err(PilotFailure::Answer)?;
+        let answer = PolicyAnswer::read(&message, environment, self.manners.actions).map_err(PilotFailure::Answer)?;
         let action = answer.action(environment, every);
         self.answer = Some(answer);
-        action.ok_or_else(|| Failure::Answer("the answer is too short for one step".to_owned()))
+        action.ok_or_else(|| PilotFailure::Answer("the answer is too short for one step".to_owned()))
     }
 }

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 /// Why a policy gave no action.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Failure {
+pub enum PilotFailure {
     /// A wrong answer, or none in time: the episode ends and says so.
     Answer(String),
     /// The policy is gone: the episode may be flown again.
@@ -29,6 +29,6 @@ pub trait Pilot {
     /// Action for the present observation.
     ///
     /// # Errors
-    /// [`Failure`].
-    fn act(&mut self, environment: &Environment) -> std::result::Result<Action, Failure>;
+    /// [`PilotFailure`].
+    fn act(&mut self, environment: &Environment) -> std::result::Result<Action, PilotFailure>;
 }

@@ -3,7 +3,7 @@
 use super::answer::PolicyAnswer;
 use super::manners::Manners;
 use super::question::Question;
-use super::seam::{Failure, Pilot, late};
+use super::seam::{Pilot, PilotFailure, late};
 use crate::wire;
 use cosfly_env::policies::Knowledge;
 use cosfly_env::{Action, Environment};
@@ -142,58 +142,62 @@ impl SocketPilot {
             // A server that serves one episode at a time has it later.
             let is_late = self.socket.as_ref().is_some_and(|socket| socket.get_ref().left().is_err());
             match failure {
-                Failure::Answer(why) if !is_late => NoServer::for_good(format!("it sends no metadata first: {why}")),
-                Failure::Answer(why) | Failure::Gone(why) => NoServer::for_now(format!("it sends no metadata: {why}")),
+                PilotFailure::Answer(why) if !is_late => {
+                    NoServer::for_good(format!("it sends no metadata first: {why}"))
+                }
+                PilotFailure::Answer(why) | PilotFailure::Gone(why) => {
+                    NoServer::for_now(format!("it sends no metadata: {why}"))
+                }
             }
         })?;
         wire::decode(&metadata).map(drop).map_err(|what| NoServer::for_good(format!("its metadata: {what}")))
     }
 
     /// The next message, within the time allowed.
-    fn receive(&mut self) -> Result<Vec<u8>, Failure> {
+    fn receive(&mut self) -> Result<Vec<u8>, PilotFailure> {
         let timeout = self.manners.timeout;
-        let socket = self.socket.as_mut().ok_or_else(|| Failure::Gone("there is no connection".to_owned()))?;
+        let socket = self.socket.as_mut().ok_or_else(|| PilotFailure::Gone("there is no connection".to_owned()))?;
         socket.get_mut().until = Instant::now() + timeout;
         loop {
             return match socket.read() {
                 Ok(Message::Binary(bytes)) => Ok(bytes.to_vec()),
                 Ok(Message::Text(text)) => {
                     let text = self.manners.beginning_of(text.as_str(), KEPT);
-                    Err(Failure::Answer(format!("the policy answers with a text: {text}")))
+                    Err(PilotFailure::Answer(format!("the policy answers with a text: {text}")))
                 }
                 Ok(Message::Ping(_) | Message::Pong(_)) => continue,
                 Ok(Message::Close(_) | Message::Frame(_)) => {
-                    Err(Failure::Gone("the policy closed the connection".to_owned()))
+                    Err(PilotFailure::Gone("the policy closed the connection".to_owned()))
                 }
-                Err(Error::Io(error)) if is_late(&error) => Err(Failure::Answer(late(timeout))),
-                Err(Error::Capacity(_)) => Err(Failure::Answer(wire::too_long())),
+                Err(Error::Io(error)) if is_late(&error) => Err(PilotFailure::Answer(late(timeout))),
+                Err(Error::Capacity(_)) => Err(PilotFailure::Answer(wire::too_long())),
                 // It ended without a word of goodbye.
                 Err(Error::Protocol(ProtocolError::ResetWithoutClosingHandshake)) => {
-                    Err(Failure::Gone("the policy closed the connection".to_owned()))
+                    Err(PilotFailure::Gone("the policy closed the connection".to_owned()))
                 }
                 Err(Error::Utf8(_) | Error::Protocol(_)) => {
-                    Err(Failure::Answer("the answer is not a WebSocket message".to_owned()))
+                    Err(PilotFailure::Answer("the answer is not a WebSocket message".to_owned()))
                 }
-                Err(error) => Err(Failure::Gone(format!("the connection broke: {error}"))),
+                Err(error) => Err(PilotFailure::Gone(format!("the connection broke: {error}"))),
             };
         }
     }
 
-    fn ask(&mut self, environment: &Environment) -> Result<PolicyAnswer, Failure> {
+    fn ask(&mut self, environment: &Environment) -> Result<PolicyAnswer, PilotFailure> {
         let question = self.question.bytes(environment);
-        let socket = self.socket.as_mut().ok_or_else(|| Failure::Gone("there is no connection".to_owned()))?;
+        let socket = self.socket.as_mut().ok_or_else(|| PilotFailure::Gone("there is no connection".to_owned()))?;
         socket.get_mut().until = Instant::now() + self.manners.timeout;
         if let Err(error) = socket.send(Message::Binary(question.into())) {
             return Err(match error {
                 Error::Io(error) if is_late(&error) => {
-                    Failure::Answer("the policy does not take the observation".to_owned())
+                    PilotFailure::Answer("the policy does not take the observation".to_owned())
                 }
-                error => Failure::Gone(format!("the connection broke: {error}")),
+                error => PilotFailure::Gone(format!("the connection broke: {error}")),
             });
         }
         let message = self.receive()?;
-        let message = wire::decode(&message).map_err(Failure::Answer)?;
-        PolicyAnswer::read(&message, environment, self.manners.actions).map_err(Failure::Answer)
+        let message = wire::decode(&message).map_err(PilotFailure::Answer)?;
+        PolicyAnswer::read(&message, environment, self.manners.actions).map_err(PilotFailure::Answer)
     }
 }
 
@@ -208,7 +212,7 @@ impl Pilot for SocketPilot {
         self.meet()
     }
 
-    fn act(&mut self, environment: &Environment) -> Result<Action, Failure> {
+    fn act(&mut self, environment: &Environment) -> Result<Action, PilotFailure> {
         let every = self.manners.every;
         if let Some(action) = self.answer.as_ref().and_then(|answer| answer.action(environment, every)) {
             return Ok(action);
@@ -216,7 +220,7 @@ impl Pilot for SocketPilot {
         let answer = self.ask(environment)?;
         let action = answer.action(environment, every);
         self.answer = Some(answer);
-        action.ok_or_else(|| Failure::Answer("the answer is too short for one step".to_owned()))
+        action.ok_or_else(|| PilotFailure::Answer("the answer is too short for one step".to_owned()))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::*;
 use cosfly_runner::RunOutcome;
-use cosfly_store::{FaultPoints, Step};
+use cosfly_store::{FaultPoints, PublishStep};
 use std::io;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -14,7 +14,7 @@ struct RefuseFrom {
 }
 
 impl FaultPoints for RefuseFrom {
-    fn before(&self, _step: Step) -> io::Result<()> {
+    fn before(&self, _step: PublishStep) -> io::Result<()> {
         if self.seen.fetch_add(1, Ordering::Relaxed) < self.first {
             return Ok(());
         }

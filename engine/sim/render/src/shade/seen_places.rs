@@ -5,7 +5,7 @@ use cosfly_frames::{DVec2, DVec3, simd_kernel};
 use cosfly_raster::eye::Eye;
 use cosfly_raster::seen_region::FAR_M;
 use cosfly_raster::shadow_frame::ShadowFrame;
-use cosfly_raster::visibility::{Screen, Visibility};
+use cosfly_raster::visibility::{Screen, VisibilityBuffer};
 
 /// Sides of the blocks of a large picture and of a small one, pixels.
 const SIDES: [usize; 2] = [16, 8];
@@ -29,7 +29,7 @@ impl SeenPlaces {
         level: Level,
         lattice: &ShadowFrame,
         (eye, screen): (&Eye, &Screen),
-        drawn: &Visibility,
+        drawn: &VisibilityBuffer,
         mut visit: impl FnMut(DVec2, DVec2),
     ) {
         let (width, height) = drawn.size();
@@ -106,7 +106,7 @@ mod tests {
             let eye = Eye::new(&Pose::looking_at(DVec3::new(3.0, 4.0, 20.0), DVec3::new(30.0, -9.0, 1.0)));
             let lattice = Sun::new(Vec3::new(0.5, -0.4, 0.6).unit(), [0.0; 2]).lattice(0);
             let (width, height) = (width as usize, height as usize);
-            let mut drawn = Visibility::new(width, height);
+            let mut drawn = VisibilityBuffer::new(width, height);
             for (at, depth) in drawn.inverse_depth.iter_mut().enumerate() {
                 let (u, v) = (at % width, at / width);
                 *depth = if (u * v) % 7 == 3 { 0.0 } else { 0.002 + ((u * 31 + v * 17) % 97) as f32 * 1e-3 };

@@ -14,7 +14,7 @@ use cosfly_materials::pattern::hash;
 use cosfly_materials::tone::ToneCurve;
 use cosfly_materials::vector::Vec3;
 use cosfly_raster::eye::Eye;
-use cosfly_raster::visibility::{Screen, Visibility};
+use cosfly_raster::visibility::{Screen, VisibilityBuffer};
 
 /// Camera, light and shadows of a frame.
 pub struct Setting {
@@ -64,7 +64,7 @@ impl Setting {
         setup: &FrameSetup<'_>,
         eye: &Eye,
         people: &People,
-        drawn: &Visibility,
+        drawn: &VisibilityBuffer,
     ) {
         self.light = Light::new(setup.weather);
         self.light.exposure *= self.exposure;

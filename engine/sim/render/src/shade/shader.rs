@@ -14,7 +14,7 @@ use cosfly_domain::{FrameImages, Optics};
 use cosfly_frames::simd::Level;
 use cosfly_materials::vector::Vec3;
 use cosfly_raster::eye::Eye;
-use cosfly_raster::visibility::{Screen, Visibility};
+use cosfly_raster::visibility::{Screen, VisibilityBuffer};
 use std::sync::{Mutex, PoisonError};
 
 /// Shades whole frames; owns the shadow maps.
@@ -73,7 +73,7 @@ impl Shader {
         setup: &FrameSetup<'_>,
         eye: &Eye,
         people: &People,
-        drawn: &Visibility,
+        drawn: &VisibilityBuffer,
     ) {
         self.setting.prepare(scene, setup, eye, people, drawn);
     }

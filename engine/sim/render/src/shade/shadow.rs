@@ -20,7 +20,7 @@ use cosfly_materials::vector::Vec3;
 use cosfly_raster::eye::Eye;
 use cosfly_raster::seen_region::SeenRegion;
 use cosfly_raster::shadow_frame::ShadowFrame;
-use cosfly_raster::visibility::{Screen, Visibility};
+use cosfly_raster::visibility::{Screen, VisibilityBuffer};
 
 /// People less high than this on the screen throw no shadow, pixels.
 const LEAST_FIGURE_PX: f64 = 4.0;
@@ -35,7 +35,7 @@ pub struct Shadows {
     places: Places,
     /// A scene and the heights of its lowest and highest places, metres.
     heights_m: Option<(u64, [f64; 2])>,
-    figure: Visibility,
+    figure: VisibilityBuffer,
     heights: Box<Heights>,
     /// One for each of a frame's people, and some that wait to be used again.
     figures: Vec<FigureShadow>,
@@ -48,7 +48,7 @@ impl Shadows {
             window: Window::new(),
             places: Places::default(),
             heights_m: None,
-            figure: Visibility::new(FIGURE_SIDE, FIGURE_SIDE),
+            figure: VisibilityBuffer::new(FIGURE_SIDE, FIGURE_SIDE),
             heights: Box::new([0.0; HEIGHTS]),
             figures: Vec::new(),
         }
@@ -62,7 +62,7 @@ impl Shadows {
         (eye, screen): (&Eye, &Screen),
         to_sun: Vec3,
         (people, target): (&People, Option<DVec3>),
-        drawn: &Visibility,
+        drawn: &VisibilityBuffer,
     ) {
         let heights_m = match self.heights_m {
             Some((id, heights_m)) if id == scene.identity => heights_m,

@@ -15,7 +15,7 @@ use cosfly_frames::{DVec2, DVec3};
 use cosfly_materials::parts::BOX_FACES;
 use cosfly_raster::seen_region::SeenRegion;
 use cosfly_raster::shadow_frame::ShadowFrame;
-use cosfly_raster::visibility::{PlaneOnScreen, Visibility};
+use cosfly_raster::visibility::{PlaneOnScreen, VisibilityBuffer};
 use std::sync::Arc;
 
 /// Posts thinner than this cast the shadow of a post this thick, half their width in texels: the map would tear them.
@@ -25,7 +25,7 @@ const SAMPLES_AT: [[f64; 2]; SAMPLES] = [[-0.375, -0.125], [-0.125, 0.375], [0.1
 
 /// Draws tiles; one for each renderer.
 pub(super) struct Painter {
-    canvas: Visibility,
+    canvas: VisibilityBuffer,
     /// Sums of the heights of a texel's samples, and how many there are, see [`add_sample`].
     sums: Vec<f32>,
     seen: Vec<u32>,
@@ -38,7 +38,7 @@ impl Painter {
     pub(super) fn new() -> Self {
         let side = WINDOW_TILES as usize * TILE + 1;
         Self {
-            canvas: Visibility::new(side, side),
+            canvas: VisibilityBuffer::new(side, side),
             sums: vec![0.0; side * side],
             seen: vec![0; side * side],
             packed: vec![0; PACKED_ROWS * TILE].into_boxed_slice(),
@@ -211,7 +211,7 @@ fn join(places: &mut [TilePlace], parts: &mut Vec<(usize, [i32; 2], [i32; 2])>) 
 
 /// Draws a face that the sun shines on, where a part of the map needs it: its height is affine over the sheared ground.
 pub(super) fn draw(
-    map: &mut Visibility,
+    map: &mut VisibilityBuffer,
     (frame, part): (&ShadowFrame, SeenRegion),
     to_sun: DVec3,
     normal: DVec3,

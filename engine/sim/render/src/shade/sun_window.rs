@@ -14,7 +14,7 @@ use cosfly_materials::pattern::fixed_size;
 use cosfly_raster::eye::Eye;
 use cosfly_raster::seen_region::{SeenRegion, for_seen_points};
 use cosfly_raster::shadow_frame::ShadowFrame;
-use cosfly_raster::visibility::{Screen, Visibility};
+use cosfly_raster::visibility::{Screen, VisibilityBuffer};
 use std::sync::Arc;
 
 /// Where the windows of the coarser texels have their middle, along the camera's axis, metres.
@@ -102,7 +102,7 @@ impl Window {
         (scene, sun): (&Scene, &Sun),
         (eye, screen): (&Eye, &Screen),
         (target, lowest_m): (Option<DVec3>, f64),
-        drawn: &Visibility,
+        drawn: &VisibilityBuffer,
     ) -> Places {
         let is_same = self.of == Some((scene.identity, *sun));
         self.of = Some((scene.identity, *sun));

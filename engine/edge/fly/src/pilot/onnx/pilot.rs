@@ -4,7 +4,7 @@ use super::description::{Fed, Source};
 use super::observation::{Observation, Order};
 use super::policy::OnnxPolicy;
 use crate::pilot::answer::PolicyAnswer;
-use crate::pilot::seam::{Failure, Pilot};
+use crate::pilot::seam::{Pilot, PilotFailure};
 use cosfly_env::pictures::{PictureBatch, Pictures, Pixels};
 use cosfly_env::policies::Knowledge;
 use cosfly_env::{Action, Environment, readings};
@@ -111,15 +111,15 @@ impl Pilot for OnnxPilot {
         Ok(())
     }
 
-    fn act(&mut self, environment: &Environment) -> Result<Action, Failure> {
+    fn act(&mut self, environment: &Environment) -> Result<Action, PilotFailure> {
         let every = self.policy.description().every;
         if let Some(action) = self.answer.as_ref().and_then(|answer| answer.action(environment, every)) {
             return Ok(action);
         }
         let answer =
-            self.ask(environment).map_err(|rule| Failure::Answer(rule.chars().take(MOST_LETTERS).collect()))?;
+            self.ask(environment).map_err(|rule| PilotFailure::Answer(rule.chars().take(MOST_LETTERS).collect()))?;
         let action = answer.action(environment, every);
         self.answer = Some(answer);
-        action.ok_or_else(|| Failure::Answer("the answer is too short for one step".to_owned()))
+        action.ok_or_else(|| PilotFailure::Answer("the answer is too short for one step".to_owned()))
     }
 }
