@@ -4,17 +4,16 @@ use super::outcome::{Outcome, Refusals, json, print};
 use super::town_of_recipe;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
-use cosfly_diagnose::Diagnostic;
 use cosfly_lab::planner::many::{ManyOptions, many};
 use cosfly_lab::planner::phases::phases;
 use cosfly_lab::planner::scene::Ground;
 use cosfly_lab::planner::solver::solver;
-use cosfly_lab::planner::{Contender, PathOutcome, PlannerOptions, front, outcomes, plot, table, tabulate};
+use cosfly_lab::planner::{Contender, PlannerOptions, front, outcomes, table, tabulate};
 use cosfly_planner::MucoConfig;
 use cosfly_scenes::SceneKind;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Default scenes of the table.
 const SCENES: [SceneKind; 5] =
@@ -33,7 +32,6 @@ Examples:
   cosfly-lab planner --recipe recipes/carla_town.toml      a recipe's own town and walks
   cosfly-lab planner --recipe my.toml --paths 20 --seed 9  its town, twenty other walks
   cosfly-lab planner --planner cosfly --planner astar      two planners
-  cosfly-lab planner --plot out/plots --paths 3            pictures, too
   cosfly-lab planner --front --recipe recipes/carla_town.toml --paths 60   visibility against learnability
   cosfly-lab planner --solver --scene leafy                the paper's solver table: trees or none, one path or many
   cosfly-lab planner --split                               where our planner's time goes
@@ -81,17 +79,10 @@ pub struct PlannerArguments {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
-    /// Draw every path from above, coloured by visibility, as SVG into this folder
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["many", "solver", "split"])]
-    pub plot: Option<PathBuf>,
 }
 
 /// Measures and prints the tables.
 pub fn planner(arguments: &PlannerArguments) -> Outcome {
-    if let Some(folder) = &arguments.plot {
-        // The folder is created before minutes of work, not after them.
-        std::fs::create_dir_all(folder).map_err(|error| unwritable(folder, &error))?;
-    }
     if arguments.many.is_some() && arguments.planners.len() > 1 {
         let rule = "`--many` takes a single `--planner`\n";
         clap::Error::raw(clap::error::ErrorKind::ArgumentConflict, rule).exit();
@@ -147,29 +138,8 @@ fn compared(arguments: &PlannerArguments, progress: &(dyn Fn(usize, usize) + Syn
         let front = front::front(&options, &planned);
         return Ok(if arguments.json { json(&front) } else { format!("{front}\n{}", front::FRONT_LEGEND) });
     }
-    let mut words = String::new();
-    if let Some(folder) = &arguments.plot {
-        let count = pictures(&options, &planned, folder)?;
-        words = format!("\n{count} pictures in {}\n", folder.display());
-    }
     let table = tabulate(&options, &planned);
-    Ok(if arguments.json { json(&table) } else { format!("{table}\n{}{words}", table::LEGEND) })
-}
-
-/// Writes one picture per path; returns their number.
-fn pictures(options: &PlannerOptions<'_>, planned: &[PathOutcome], folder: &Path) -> Result<usize, Refusals> {
-    for outcome in planned {
-        let ground = &options.grounds[outcome.ground];
-        let flights: Vec<_> = options.contenders.iter().map(|who| who.name()).zip(&outcome.flights).collect();
-        let file = folder.join(format!("{}-{:02}.svg", ground.name, outcome.path));
-        std::fs::write(file, plot::picture(ground, outcome.path, &flights))
-            .map_err(|error| unwritable(folder, &error))?;
-    }
-    Ok(planned.len())
-}
-
-fn unwritable(folder: &Path, error: &std::io::Error) -> Refusals {
-    vec![Diagnostic::io(format!("write pictures to `{}`", folder.display()), error)]
+    Ok(if arguments.json { json(&table) } else { format!("{table}\n{}", table::LEGEND) })
 }
 
 fn kinds(arguments: &PlannerArguments) -> Vec<SceneKind> {

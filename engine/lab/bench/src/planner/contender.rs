@@ -75,8 +75,6 @@ pub struct Planned {
     pub waypoints: Vec<DVec3>,
     /// Nodes expanded by the search; 0 for planners without a search.
     pub nodes: u64,
-    /// Total cost after each iteration of the solver; empty for planners without one.
-    pub convergence: Vec<f64>,
     /// Mean visibility of the lattice's cheapest path, from which the flight was refined.
     pub lattice_visibility: Option<f64>,
 }
@@ -166,7 +164,6 @@ fn flight(&Way { ground, track, movers }: &Way<'_>, config: &MucoConfig) -> Resu
             waypoints: flight.poses_in_world.iter().map(|pose| pose.position_in_world).collect(),
             nodes: 0,
             lattice_visibility: Some(flight.certificate.lattice_visibility).filter(|seen| *seen > 0.0),
-            convergence: flight.convergence,
         }),
         PlanOutcome::Rejected { reason, .. } => Err(reason),
     }
@@ -182,7 +179,7 @@ fn paper_flight(ground: &Ground, track: &TargetTrack, config: &MucoConfig) -> Pl
     let grid = GroundGrid::sample(track, &*ground.height, radius_m + 10.0);
     let mut obstacles = LocalObstacles::filter(track, &ground.planning_boxes, &grid, radius_m, influence_m);
     let flight = plan_paper(&problem, &mut obstacles, config);
-    Planned { waypoints: flight.waypoints, nodes: 0, convergence: flight.convergence, lattice_visibility: None }
+    Planned { waypoints: flight.waypoints, nodes: 0, lattice_visibility: None }
 }
 
 fn setting_path(setting: &Setting, way: &Way<'_>, config: &MucoConfig) -> Result<Planned, String> {
@@ -213,5 +210,5 @@ fn baseline_path(
     };
     let found = find(&input).map_err(|reason| reason.to_string())?;
     let (waypoints, nodes) = (found.waypoints, found.nodes_expanded);
-    Ok(Planned { waypoints, nodes, convergence: Vec::new(), lattice_visibility: None })
+    Ok(Planned { waypoints, nodes, lattice_visibility: None })
 }

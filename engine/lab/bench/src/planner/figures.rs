@@ -17,10 +17,6 @@ const CLEARANCE_CAP_M: f64 = 50.0;
 pub struct Flight {
     /// Positions, one per frame, metres; empty when there is no flight.
     pub waypoints: Vec<DVec3>,
-    /// Visibility per frame, 0..1.
-    pub visibility: Vec<f64>,
-    /// Total cost after each iteration.
-    pub convergence: Vec<f64>,
     /// CPU time of the planning thread, seconds, also when there is no flight.
     pub cpu_s: f64,
     /// Figures, or the reason for a missing flight.
@@ -72,8 +68,7 @@ impl Flight {
         let planned = match planned {
             Ok(planned) => planned,
             Err(reason) => {
-                let (waypoints, visibility, convergence) = (Vec::new(), Vec::new(), Vec::new());
-                return Self { waypoints, visibility, convergence, cpu_s, figures: Err(reason) };
+                return Self { waypoints: Vec::new(), cpu_s, figures: Err(reason) };
             }
         };
         let seen: Vec<f64> = planned
@@ -83,13 +78,7 @@ impl Flight {
             .map(|(&waypoint, state)| visibility(exact, waypoint, state, track.height_m))
             .collect();
         let figures = figures(&planned, &seen, track, exact, config.limits.clearance_m);
-        Self {
-            waypoints: planned.waypoints,
-            visibility: seen,
-            convergence: planned.convergence,
-            cpu_s,
-            figures: Ok(figures),
-        }
+        Self { waypoints: planned.waypoints, cpu_s, figures: Ok(figures) }
     }
 }
 

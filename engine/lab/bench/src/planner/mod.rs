@@ -12,7 +12,6 @@ pub mod many;
 pub mod outcomes;
 pub mod phases;
 pub mod plain_bvh;
-pub mod plot;
 pub mod scene;
 pub mod solver;
 pub mod table;
