@@ -14,6 +14,7 @@ fn sound_data_and_damaged_data_are_told_apart() {
     let printed = examined(&["--quota", "0:2-4"]);
     assert_eq!(printed.code, Some(0), "{}{}", printed.stdout, printed.stderr);
     assert!(printed.stdout.contains("6 episodes with 72 frames") && printed.stdout.contains("quota met"));
+    assert_eq!(examined(&["--quota", "0:2-4", "--jobs", "1"]).stdout, printed.stdout);
     assert_eq!(examined(&["--quota", "1:90-99"]).code, Some(1), "a quota that is not met");
     let log = street.dataset().join("mcap/street/000/perturbed-p00001.mcap");
     let mut bytes = std::fs::read(&log).expect("the log");

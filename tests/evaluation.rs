@@ -37,7 +37,7 @@ fn predictions_are_scored_beside_baselines_the_same_way_twice() {
     let found = report(&folder);
     assert_eq!((&found["rows"]["scored"], &found["rows"]["malformed"]), (&3.into(), &0.into()));
     assert_eq!(found["methods"][0]["scores"]["fde_m"], found["methods"][1]["scores"]["fde_m"], "zero is zero");
-    let again = eval(&street, &["zero.jsonl", "--out", "again", "--json"]);
+    let again = eval(&street, &["zero.jsonl", "--out", "again", "--json", "--jobs", "1"]);
     assert_eq!(again.stdout, std::fs::read_to_string(street.path().join("again/report.json")).expect("a report"));
     assert!(tree_digests(&folder) == tree_digests(&street.path().join("again")));
     assert!(tree_digests(&street.dataset()) == before, "the dataset itself is not touched");

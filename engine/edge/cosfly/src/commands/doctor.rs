@@ -6,9 +6,10 @@ use crate::console::Console;
 use crate::exit;
 use crate::text::count;
 use clap::Parser;
-use cosfly_diagnose::{Diagnostic, plausible};
+use cosfly_diagnose::{Diagnostic, Result, plausible};
 use cosfly_doctor::{Examination, GivenTexts, HeldAgainst, Layout, TextFigures, examine_given};
 use cosfly_episodes::Severity;
+use cosfly_export::on_threads;
 use cosfly_metrics::shortcuts::{Probe, ShortcutFigures};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -54,18 +55,14 @@ pub struct Arguments {
     /// Print all findings as JSON, instead of the text
     #[arg(long)]
     json: bool,
+    /// Number of threads [default: all cores]
+    #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    jobs: Option<u16>,
 }
 
 impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
-        let progress = console.progress("doctor", "episodes");
-        let examination = {
-            let texts = self.texts.as_deref().map(GivenTexts::read).transpose()?;
-            let given = HeldAgainst { texts, mesh: self.mesh.read(&self.dir)? };
-            let (stop, mut told) = (console.stop(), |done, all| progress(done, all));
-            examine_given(&self.dir, &self.quotas, &given, (&stop, &mut told))?
-        };
-        drop(progress);
+        let examination = on_threads(self.jobs, || self.examined(console))??;
         let json = || serde_json::to_string_pretty(&examination).unwrap_or_default();
         if let Some(path) = &self.out {
             cosfly_whole::write_file(path, (json() + "\n").as_bytes())
@@ -76,6 +73,16 @@ impl Command for Arguments {
         let quotas_are_met = examination.quotas.iter().all(|(quota, found)| *found >= quota.wanted);
         let is_well = !examination.has_damage() && examination.imperfect_share() <= allowed && quotas_are_met;
         Ok(if is_well { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
+    }
+}
+
+impl Arguments {
+    fn examined(&self, console: &dyn Console) -> Result<Examination> {
+        let progress = console.progress("doctor", "episodes");
+        let texts = self.texts.as_deref().map(GivenTexts::read).transpose()?;
+        let given = HeldAgainst { texts, mesh: self.mesh.read(&self.dir)? };
+        let (stop, mut told) = (console.stop(), |done, all| progress(done, all));
+        examine_given(&self.dir, &self.quotas, &given, (&stop, &mut told))
     }
 }
 

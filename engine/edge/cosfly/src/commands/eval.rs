@@ -12,6 +12,7 @@ use cosfly_diagnose::{Diagnostic, Result, plausible};
 use cosfly_evaluate::pictures::{self, PictureKind, PictureSettings};
 use cosfly_evaluate::windows::Flights;
 use cosfly_evaluate::{Evaluation, Settings, evaluate, name_of};
+use cosfly_export::on_threads;
 use cosfly_read::PublishedDataset;
 use cosfly_read::predictions;
 use cosfly_windows::WindowShape;
@@ -102,13 +103,16 @@ pub struct Arguments {
     /// Print the report as JSON
     #[arg(long)]
     json: bool,
+    /// Number of threads [default: all cores]
+    #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    jobs: Option<u16>,
     #[command(flatten)]
     pictures: PictureArguments,
 }
 
 impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
-        let reports = reports(self)?;
+        let reports = on_threads(self.jobs, || reports(self))??;
         let folder = folder(self);
         write(&folder, &reports)?;
         if self.json {

@@ -320,6 +320,7 @@ def doctor(
     mesh: PathLike | None = None,
     mesh_set: Settings = None,
     mesh_town: str | None = None,
+    jobs: int | None = None,
     progress: Progress = True,
 ) -> DoctorResult:
     """Examine anyone's data (cosfly, v7, LeRobot): leaks, signs, units, shifts, frozen frames, limits.
@@ -329,7 +330,7 @@ def doctor(
     ``mesh_town`` are those of :func:`verify`.
     """
     arguments = ["doctor", path_of(data), "--json", *_mesh(mesh, mesh_set, mesh_town)]
-    arguments += _options(imperfect_share=imperfect_share, quota=names_of("quotas", quotas), texts=texts)
+    arguments += _options(imperfect_share=imperfect_share, quota=names_of("quotas", quotas), texts=texts, jobs=jobs)
     code, text, _ = _call(arguments, b"", progress)
     return DoctorResult(code == 0, json.loads(text))
 
@@ -358,6 +359,7 @@ def evaluate(
     categories: int | Sequence[int] = (),
     images: PathLike | None = None,
     sequences: PathLike | None = None,
+    jobs: int | None = None,
 ) -> EvaluateResult:
     """Score predictions on a dataset, beside baselines; without predictions the baselines alone. The command is ``cosfly eval``.
 
@@ -372,7 +374,7 @@ def evaluate(
     arguments += _options(
         kind=kind, split=names_of("splits", splits), frame=frame, anchor=anchor, input=input, history=history, horizon=horizon, stride=stride,
         missing_as_zero=missing_as_zero, resamples=resamples, seed=seed, every=every, depth_per_metre=depth_per_metre,
-        max_depth_m=max_depth_m, category=categories, images=images, sequences=sequences, origin=origin,
+        max_depth_m=max_depth_m, category=categories, images=images, sequences=sequences, origin=origin, jobs=jobs,
     )  # fmt: skip
     code, text, _ = _call(arguments, b"", False)
     return EvaluateResult(json.loads(text), folder, code == 0)
