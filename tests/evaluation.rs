@@ -1,6 +1,6 @@
 //! `cosfly eval` through the real binary: scores, baselines, malformed rows, errors.
 
-use crate::street::Street;
+use crate::street::{RECIPE, Street, map};
 use crate::support::{Printed, cosfly, tree_digests};
 use std::path::Path;
 
@@ -101,6 +101,32 @@ fn an_absurd_number_is_a_malformed_row_and_writes_small_reports() {
         let size = std::fs::metadata(folder.join(name)).expect("written").len();
         assert!(size < 500_000, "{name} has {size} bytes");
     }
+}
+
+#[test]
+fn windows_of_cameras_with_other_steps_have_no_common_mean() {
+    let cameras = "height = 54\n[stages.frames.cameras.front]\n[stages.frames.cameras.slow]\nevery = 2\n";
+    let street = Street::with(&RECIPE.replacen("height = 54\n", cameras, 1), &map());
+    cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
+    let windows = ["--history", "2", "--horizon", "1", "--split", "train", "--split", "val", "--out", "scores"];
+    let score = |more: &[&str]| eval(&street, &[more, &windows].concat());
+    let printed = score(&[]);
+    let words = ["evaluation-steps", "`--camera front` or `--camera slow`"];
+    assert!(printed.code == Some(4) && words.iter().all(|it| printed.stderr.contains(it)), "{}", printed.stderr);
+    let windows_of = |camera: &str| {
+        let printed = score(&["--camera", camera]);
+        assert_eq!(printed.code, Some(0), "{}", printed.stderr);
+        report(&street.path().join("scores"))["windows"]["expected"].as_u64().expect("a count")
+    };
+    assert!(windows_of("front") > windows_of("slow"), "the slow camera has half the frames");
+    // Predictions for the films of a camera are of that camera.
+    let text = row("perturbed-p00000-slow", "[0]").replace(", [0], [0], [0], [0]", "");
+    std::fs::write(street.path().join("slow.jsonl"), text).expect("writable");
+    let printed = score(&["slow.jsonl", "--missing-as-zero"]);
+    assert_eq!(printed.code, Some(0), "{}", printed.stderr);
+    assert_eq!(report(&street.path().join("scores"))["settings"]["cameras"], serde_json::json!(["slow"]));
+    let printed = score(&["--camera", "rear"]);
+    assert!(printed.code == Some(3) && printed.stderr.contains("front, slow"), "{}", printed.stderr);
 }
 
 #[test]

@@ -27,11 +27,14 @@ pub fn evaluate(
     predictions: Option<(&str, Predictions)>,
     settings: &Settings,
 ) -> Result<Evaluation> {
-    let splits = splits(flights, predictions.as_ref().map(|(_, given)| given), settings)?;
+    let predicted = predictions.as_ref().map(|(_, given)| predicted(flights, given)).unwrap_or_default();
+    let splits = splits(flights, predictions.is_some(), &predicted, settings)?;
+    let settings = &Settings { cameras: cameras(flights, &predicted, settings)?, ..settings.clone() };
     let windows = WindowSet::new(flights, settings, &splits);
     if windows.len == 0 {
         return Err(no_windows(flights, &splits, settings));
     }
+    one_step(flights, &windows)?;
     let (file, mut given) = predictions.map_or((None, Predictions::default()), |(file, given)| (Some(file), given));
     let mut joined = Joined::new(&given, flights, &windows, settings);
     let read = given.len() + given.problems.len();
@@ -95,25 +98,73 @@ pub fn evaluate(
     })
 }
 
+/// Flights of the dataset that predictions name.
+fn predicted(flights: &Flights, given: &Predictions) -> BTreeSet<usize> {
+    let mut named: Vec<&str> = given.rows().map(|row| row.trajectory_id).collect();
+    named.dedup();
+    let named: BTreeSet<&str> = named.into_iter().collect();
+    named.iter().filter_map(|id| flights.place(id)).collect()
+}
+
 /// The splits to score.
-fn splits(flights: &Flights, predictions: Option<&Predictions>, settings: &Settings) -> Result<BTreeSet<String>> {
+fn splits(
+    flights: &Flights,
+    is_predicted: bool,
+    predicted: &BTreeSet<usize>,
+    settings: &Settings,
+) -> Result<BTreeSet<String>> {
     if let Some(refusal) = unknown_split(flights, &settings.splits) {
         return Err(refusal);
     }
     if !settings.splits.is_empty() {
         return Ok(settings.splits.iter().cloned().collect());
     }
-    let chosen: BTreeSet<String> = match predictions {
-        Some(given) => {
-            let mut named: Vec<&str> = given.rows().map(|row| row.trajectory_id).collect();
-            named.dedup();
-            let named: BTreeSet<&str> = named.into_iter().collect();
-            let places = named.iter().filter_map(|id| flights.place(id));
-            places.map(|place| flights.rows[place].split.clone()).collect()
-        }
-        None => return Ok(unseen_splits(flights)),
-    };
+    if !is_predicted {
+        return Ok(unseen_splits(flights));
+    }
+    let chosen: BTreeSet<String> = predicted.iter().map(|place| flights.rows[*place].split.clone()).collect();
     Ok(if chosen.is_empty() { flights.rows.iter().map(|row| row.split.clone()).collect() } else { chosen })
+}
+
+/// The cameras to score; none where all are.
+fn cameras(flights: &Flights, predicted: &BTreeSet<usize>, settings: &Settings) -> Result<Vec<String>> {
+    let there: BTreeSet<&str> = flights.rows.iter().filter_map(|row| row.camera_name.as_deref()).collect();
+    if let Some(unknown) = settings.cameras.iter().find(|camera| !there.contains(camera.as_str())) {
+        let refusal =
+            Diagnostic::new("evaluation-camera", Fault::Recipe, format!("no film is of a camera `{unknown}`"));
+        let names: Vec<&str> = there.into_iter().collect();
+        return Err(match names.is_empty() {
+            true => refusal.hint("the dataset has one camera, without a name"),
+            false => refusal.hint(format!("its cameras are {}", names.join(", "))),
+        });
+    }
+    if !settings.cameras.is_empty() {
+        return Ok(settings.cameras.clone());
+    }
+    let cameras: BTreeSet<Option<&String>> =
+        predicted.iter().map(|flight| flights.rows[*flight].camera_name.as_ref()).collect();
+    Ok(match cameras.contains(&None) {
+        true => vec![],
+        false => cameras.into_iter().flatten().cloned().collect(),
+    })
+}
+
+/// Refuses windows of several steps: the same error is another mistake after half the time.
+fn one_step(flights: &Flights, windows: &WindowSet) -> Result<()> {
+    let mut steps: Vec<(f64, &str)> = vec![];
+    for row in windows.flights.iter().map(|(flight, _)| &flights.rows[*flight]) {
+        if steps.iter().all(|(dt_s, _)| *dt_s != row.dt_s) {
+            steps.push((row.dt_s, row.camera_name.as_deref().unwrap_or_default()));
+        }
+    }
+    let [(first_s, camera), (other_s, other), ..] = steps[..] else { return Ok(()) };
+    let message = format!("windows of `{}` have frames {first_s} s and {other_s} s apart", flights.folder);
+    let refusal = Diagnostic::new("evaluation-steps", Fault::Input, message)
+        .because("errors after other times have no mean that says anything");
+    Err(match camera != other {
+        true => refusal.hint(format!("`--camera {camera}` or `--camera {other}` scores the films of one camera")),
+        false => refusal.hint("make a dataset of flights with one time between frames"),
+    })
 }
 
 /// All splits but train; all where there is no other.

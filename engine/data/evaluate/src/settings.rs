@@ -30,12 +30,22 @@ pub struct Settings {
     pub input: InputRole,
     /// The splits to score; empty: those of the predicted flights, without predictions val and test.
     pub splits: Vec<String>,
+    /// The cameras to score, of datasets with several; empty: those of the predicted flights, without predictions all.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub cameras: Vec<String>,
     /// Windows without a prediction are scored as if all increments were zero.
     pub missing_as_zero: bool,
     /// Resamples behind an interval.
     pub resamples: usize,
     /// Seed of the resamples.
     pub seed: u64,
+}
+
+impl Settings {
+    /// Whether the films of a camera are scored.
+    pub fn takes(&self, camera: Option<&str>) -> bool {
+        self.cameras.is_empty() || camera.is_some_and(|camera| self.cameras.iter().any(|it| it == camera))
+    }
 }
 
 impl Default for Settings {
@@ -47,6 +57,7 @@ impl Default for Settings {
             anchor: Anchor::Input,
             input: InputRole::Perturbed,
             splits: vec![],
+            cameras: vec![],
             missing_as_zero: false,
             resamples: bootstrap::RESAMPLES,
             seed: 1,

@@ -247,7 +247,8 @@ impl WindowSet {
         let mut set = Self { shape: settings.window, flights: vec![], len: 0, by_flight: BTreeMap::new() };
         for (flight, row) in flights.rows.iter().enumerate() {
             let windows = set.shape.count(row.frames);
-            if windows > 0 && flights.role(flight) == settings.input && splits.contains(&row.split) {
+            let is_chosen = splits.contains(&row.split) && settings.takes(row.camera_name.as_deref());
+            if windows > 0 && flights.role(flight) == settings.input && is_chosen {
                 set.by_flight.insert(flight, set.flights.len());
                 set.flights.push((flight, set.len));
                 set.len += windows;

@@ -70,6 +70,9 @@ pub struct Arguments {
     /// Splits to score (repeatable) [default: those of the predicted flights; without predictions, all but train]
     #[arg(long = "split", value_name = "NAME")]
     splits: Vec<String>,
+    /// Cameras of a rig whose films are scored (repeatable) [default: those of the predicted flights; without predictions, all]
+    #[arg(long = "camera", value_name = "NAME")]
+    cameras: Vec<String>,
     /// Axes of the increments: those of the world, or of the body that moves (x ahead, y right, z up)
     #[arg(long, value_enum, default_value_t = FrameChoice::World)]
     frame: FrameChoice,
@@ -231,6 +234,7 @@ fn settings(arguments: &Arguments) -> Settings {
         anchor: arguments.anchor.into(),
         input: arguments.input.into(),
         splits: arguments.splits.clone(),
+        cameras: arguments.cameras.clone(),
         missing_as_zero: arguments.missing_as_zero,
         resamples: arguments.resamples,
         seed: arguments.seed,

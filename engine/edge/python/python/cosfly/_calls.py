@@ -343,6 +343,7 @@ def evaluate(
     out: PathLike | None = None,
     kind: str | None = None,
     splits: str | Sequence[str] = (),
+    cameras: str | Sequence[str] = (),
     frame: str | None = None,
     origin: str | None = None,
     anchor: str | None = None,
@@ -372,9 +373,10 @@ def evaluate(
     folder = Path(out) if out is not None else Path(default)
     arguments = ["eval", path_of(dataset), *given, "--out", path_of(folder), "--json"]
     arguments += _options(
-        kind=kind, split=names_of("splits", splits), frame=frame, anchor=anchor, input=input, history=history, horizon=horizon, stride=stride,
-        missing_as_zero=missing_as_zero, resamples=resamples, seed=seed, every=every, depth_per_metre=depth_per_metre,
-        max_depth_m=max_depth_m, category=categories, images=images, sequences=sequences, origin=origin, jobs=jobs,
+        kind=kind, split=names_of("splits", splits), camera=names_of("cameras", cameras), frame=frame, origin=origin, anchor=anchor,
+        input=input, history=history, horizon=horizon, stride=stride, missing_as_zero=missing_as_zero, resamples=resamples, seed=seed,
+        every=every, depth_per_metre=depth_per_metre, max_depth_m=max_depth_m, category=categories, images=images, sequences=sequences,
+        jobs=jobs,
     )  # fmt: skip
     code, text, _ = _call(arguments, b"", False)
     return EvaluateResult(json.loads(text), folder, code == 0)
