@@ -4,8 +4,9 @@
     python recipes/training/paper/kinds.py --out out/kinds
     python recipes/training/paper/kinds.py --out out/kinds --unseen campus villas     # other unseen kinds, on the same data
 
-Makes towns of every kind and flights in them, in pictures of 128 x 72. Trains a small network on each single kind, briefly; then, longer, on
-the best single kind and on all of them, with as many frames and steps. Needs `cosfly` on the path, the package cosfly, torch 1.13 or newer
+Makes towns of fourteen kinds (all but `suburb`, which is younger than the book's figures; `--kinds` and `--unseen` take it, too) and flights in
+them, in pictures of 128 x 72. Trains a small network on each single kind, briefly; then, longer, on the best single kind and on all of them,
+with as many frames and steps. Needs `cosfly` on the path, the package cosfly, torch 1.13 or newer
 and numpy. A network is a file: what is there is not trained again. Writes `report.md`, and prints it. The book's page "Several kinds of
 places" has the figures.
 """
