@@ -1,8 +1,9 @@
 //! Sensors that are no cameras, through the real binary: tables of readings, and recipes that are refused.
 
+use crate::several_towns::bytes_below;
 use crate::street::{RECIPE, Street, map};
 use crate::support::{column, cosfly};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The street with two altimeters, an inertial unit, a satellite receiver and a lidar on the drone, whose readings the dataset has.
 fn street(second: &str) -> Street {
@@ -211,6 +212,18 @@ fn rig(camera: &str, frames: &str) -> Street {
 }
 
 #[test]
+fn a_plan_tells_what_a_lidar_along_one_camera_of_a_rig_writes() {
+    let street = rig("front_left", "[\"frames\", \"around\"]");
+    let shots = ["--set", "stages.scan.pattern.shots_hz=20000"];
+    let planned = cosfly(&[&["plan", "recipe.toml", "--json"][..], &shots].concat()).within(street.path()).run_ok();
+    let planned: serde_json::Value = serde_json::from_str(&planned.stdout).expect("JSON");
+    cosfly(&[&["run", "recipe.toml", "--quiet"][..], &shots].concat()).within(street.path()).run_ok();
+    let written = bytes_below(&street.path().join(".cosfly"), &mut BTreeSet::new()) as f64;
+    let ratio = planned["predicted_bytes"].as_f64().expect("a number") / written;
+    assert!((0.67..1.5).contains(&ratio), "{ratio:.2} of {written}");
+}
+
+#[test]
 fn a_sensor_reads_along_the_films_of_one_camera_of_a_rig() {
     let street = rig("front_left", "[\"frames\", \"around\"]");
     cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
@@ -219,7 +232,7 @@ fn a_sensor_reads_along_the_films_of_one_camera_of_a_rig() {
     assert_eq!(column(&dataset, "trajectories", "trajectory_id").len(), 24);
     for table in ["inertial_unit", "lidar"] {
         let ids = column(&dataset, table, "trajectory_id");
-        let films: std::collections::BTreeSet<&String> = ids.iter().collect();
+        let films: BTreeSet<&String> = ids.iter().collect();
         assert!(films.len() == 6 && films.iter().all(|id| id.trim_matches('"').ends_with("-front_left")), "{films:?}");
     }
     // The other films' logs have no topic of a sensor, and exports take films by camera.

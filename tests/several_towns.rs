@@ -241,7 +241,7 @@ fn inputs_that_do_not_fit_together_are_refused() {
 }
 
 /// Bytes of the files below a folder, each file once, whatever its names.
-fn bytes_below(folder: &Path, seen: &mut BTreeSet<u64>) -> u64 {
+pub fn bytes_below(folder: &Path, seen: &mut BTreeSet<u64>) -> u64 {
     let entries = std::fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry"));
     let bytes = |entry: std::fs::DirEntry| {
         let data = entry.metadata().expect("a file");

@@ -7,7 +7,7 @@ use crate::sources::{HashedSource, SourceReader};
 use cosfly_diagnose::Result;
 use cosfly_fingerprint::Digest;
 use cosfly_recipe::{Arrival, Recipe, RecipeStage};
-use cosfly_stage::{Blobs, Fan, ItemLength, ItemName, StageProperties};
+use cosfly_stage::{Blobs, Fan, ItemLength, ItemName, StageNeed, StageProperties};
 use cosfly_store::{FinishedTask, FolderTimes, Store};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -187,15 +187,21 @@ fn predict_time(plan: &mut Plan<'_>, store: &Store) {
 fn predict(plan: &mut Plan<'_>) {
     let mut expected: Vec<u64> = Vec::with_capacity(plan.stages.len());
     for ((stage, described), length) in plan.recipe.stages.iter().enumerate().zip(lengths(plan.recipe)) {
-        let arriving = || {
+        let arriving = |counts: &dyn Fn(usize) -> bool| {
             let connections = described.connections.iter();
             let by_item = connections.filter(|connection| matches!(connection.port.fan, Fan::Each | Fan::Group));
-            let all = by_item.flat_map(|connection| connection.arrivals.iter()).map(|arrival| expected[arrival.stage]);
-            all.fold(0, u64::saturating_add) / (described.items.len() as u64).max(1)
+            let of = by_item.flat_map(|connection| connection.arrivals.iter()).filter(|arrival| counts(arrival.stage));
+            let all = of.map(|arrival| expected[arrival.stage]).fold(0, u64::saturating_add);
+            all / (described.items.len() as u64).max(1)
         };
+        let gives = |stage: usize| plan.recipe.stages[stage].stage.properties().gives.is_some();
         let stated = || match stated_bytes(described.stage.properties(), length.unwrap_or(UNTOLD)) {
-            0 => arriving(),
-            stated => stated,
+            0 => arriving(&|_| true),
+            stated => {
+                let share = share_of_variants(described, &plan.recipe.stages);
+                // What a stage gives by a name is there once more in the tables that hold it.
+                ((stated as f64 * share) as u64).saturating_add(arriving(&gives))
+            }
         };
         let each = measured_bytes(plan, stage).unwrap_or_else(stated);
         let planned = &mut plan.stages[stage];
@@ -235,6 +241,19 @@ fn stated_bytes(properties: &StageProperties, length: ItemLength) -> u64 {
     let of_frames = properties.bytes_per_frame.saturating_mul(length.frames);
     let of_seconds = properties.bytes_per_s as f64 * length.duration_s;
     properties.bytes_per_item.saturating_add(of_frames).saturating_add(of_seconds as u64)
+}
+
+/// Share of the items of a stage that are of the variant that it needs, as a sensor reads along the films of one camera.
+fn share_of_variants(described: &RecipeStage, stages: &[RecipeStage]) -> f64 {
+    let needs = described.stage.properties().needs.iter();
+    let shares = needs.filter_map(|need| {
+        let StageNeed::Variant { port, name, .. } = need else { return None };
+        let at_port = described.connections.iter().filter(|connection| connection.port.name == *port);
+        let arrivals: Vec<&Arrival> = at_port.flat_map(|connection| connection.arrivals.iter()).collect();
+        let of_variant = |arrival: &&&Arrival| stages[arrival.stage].items[arrival.item].variant() == Some(name);
+        Some(arrivals.iter().filter(of_variant).count() as f64 / arrivals.len().max(1) as f64)
+    });
+    shares.product()
 }
 
 /// Length of one item of each stage: what the stage sets, else the longest that it is made of; all of a group, one after the other.
