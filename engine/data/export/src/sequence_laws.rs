@@ -181,6 +181,12 @@ fn flights_that_follow_nobody_are_not_told_to_follow() {
         let lines: Vec<&str> = lines.flat_map(|(_, bytes)| std::str::from_utf8(bytes).unwrap().lines()).collect();
         assert!(!lines.is_empty() && lines.iter().all(|it| it.contains(&format!("\"instruction\":\"{said}\""))));
     }
+    let options = json!({"history": 3, "horizon": 2, "stride": 1, "input": "expert"});
+    let (files, _) = export(&dataset, "vlm", options, &home.path().join("asked"));
+    let lines = files.iter().filter(|(path, _)| path.extension().is_some_and(|it| it == "jsonl"));
+    let words: String = lines.map(|(_, bytes)| std::str::from_utf8(bytes).unwrap()).collect();
+    assert!(words.contains("a drone that flies a planned way. Answer") && !words.contains("follows"), "{words}");
+    assert!(!words.contains("Boxes of the target"), "{words}");
 }
 
 #[test]

@@ -66,7 +66,7 @@ pub fn conversation(
         "trajectory_id": episode.flight.trajectory_id,
         "frame": start,
         "messages": [
-            {"role": "system", "content": system(options)},
+            {"role": "system", "content": system(episode, options)},
             {"role": "user", "content": question(episode, options, seen, instruction, shown)},
             {"role": "assistant", "content": json!({"waypoint_deltas": deltas}).to_string()},
         ],
@@ -104,16 +104,26 @@ fn hundredths(value: f64) -> f64 {
     (100.0 * value).round_ties_even() / 100.0 + 0.0
 }
 
-fn system(options: &Options) -> String {
+/// Words for what the drone does: it follows somebody, or nobody.
+pub(super) fn task(episode: &ExportedFlight<'_>) -> &'static str {
+    match episode.flight.target_kind {
+        Some(_) => "follows a target",
+        None => "flies a planned way",
+    }
+}
+
+fn system(episode: &ExportedFlight<'_>, options: &Options) -> String {
     let axes = match options.increments.frame {
         IncrementAxes::World => "the world's axes (x east, y south, z up)",
         IncrementAxes::Body => "the body's axes at the waypoint before (x ahead, y right, z up)",
     };
     format!(
-        "You steer a drone that follows a target without losing sight of it. Answer with one JSON object: \
+        "You steer a drone that {}{}. Answer with one JSON object: \
          {{\"waypoint_deltas\": [[dx, dy, dz, dpitch, dyaw, droll], ...]}} with {} increments, each from the waypoint \
          before, the first from the current pose. dx, dy, dz are metres along {axes}; angles are degrees, positive: \
          nose up, to the right, right side down.",
+        task(episode),
+        if episode.flight.target_kind.is_some() { " without losing sight of it" } else { "" },
         options.horizon
     )
 }
@@ -149,7 +159,7 @@ fn question(
             let _ = writeln!(text, "{}", pose_text(&row.pose, current));
         }
     }
-    if shown.boxes {
+    if shown.boxes && flight.target_kind.is_some() {
         let _ =
             writeln!(text, "Boxes of the target, [left, top, right, bottom] in {unit}, null where it cannot be seen:");
         for row in seen {

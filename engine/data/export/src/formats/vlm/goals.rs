@@ -1,6 +1,6 @@
 //! Goals as conversations: write the goal of pictures, judge whether pictures do what a goal says, understand a correction.
 
-use super::conversation::{as_words, language_name};
+use super::conversation::{as_words, language_name, task};
 use crate::source::ExportedFlight;
 use cosfly_read::PublishedGoal;
 use serde_json::{Value, json};
@@ -8,9 +8,6 @@ use std::collections::BTreeMap;
 
 /// Most pictures of a stretch.
 const PICTURES: usize = 4;
-
-const SYSTEM: &str =
-    "You are the pilot of a drone that follows a person. The pictures are from its camera, in order of time.";
 
 /// Lines of a flight's goals, each with the name of its file after the split. `pictures` has the paths of the flight's pictures by frame;
 /// a goal whose stretch has none is left out.
@@ -21,6 +18,9 @@ pub fn lines(
     pictures: &BTreeMap<usize, String>,
 ) -> Vec<(&'static str, Value)> {
     let mut found = vec![];
+    let task = task(episode);
+    let system =
+        format!("You are the pilot of a drone that {task}. The pictures are from its camera, in order of time.");
     for (number, goal) in goals.iter().enumerate() {
         let Some((&first, &last)) = goal.frames.first().zip(goal.frames.last()) else { continue };
         let shown = shown(pictures, first, last);
@@ -34,7 +34,7 @@ pub fn lines(
                 "trajectory_id": episode.flight.trajectory_id,
                 "frame": first,
                 "messages": [
-                    {"role": "system", "content": SYSTEM},
+                    {"role": "system", "content": system},
                     {"role": "user", "content": user},
                     {"role": "assistant", "content": answer},
                 ],

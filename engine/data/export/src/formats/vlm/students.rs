@@ -1,6 +1,6 @@
 //! Sets for students of a teacher: nested shares, windows without some inputs, texts to learn, pairs of texts.
 
-use super::conversation::{Shown, as_words, language_name, pose_text};
+use super::conversation::{Shown, as_words, language_name, pose_text, task};
 use super::options::Options;
 use crate::source::ExportedFlight;
 use cosfly_fingerprint::Digest;
@@ -70,11 +70,14 @@ pub fn texts(
     shown.dedup();
     let images: Vec<&String> = shown.iter().map(|frame| &pictures[frame]).collect();
     let language = options.instructions.language.code();
+    let task = task(episode);
+    let system =
+        format!("You describe flights of a drone that {task}. State only what the pictures and the poses show.");
     let mut lines = vec![];
     for (number, caption) in episode.captions.iter().enumerate().filter(|(_, it)| it.language == language) {
         let id = format!("{}_text_{number:02}", episode.flight.trajectory_id);
         let asked = [
-            json!({"role": "system", "content": SYSTEM}),
+            json!({"role": "system", "content": system}),
             json!({"role": "user", "content": question(episode, &shown, language, &caption.style)}),
         ];
         let answer = |text: &str| json!({"role": "assistant", "content": as_words(text)});
@@ -94,9 +97,6 @@ pub fn texts(
     }
     lines
 }
-
-const SYSTEM: &str =
-    "You describe flights of a drone that follows a person. State only what the pictures and the poses show.";
 
 fn question(episode: &ExportedFlight<'_>, shown: &[usize], language: &str, style: &str) -> String {
     let mut text = format!("{}\n", "<image>".repeat(shown.len()));
