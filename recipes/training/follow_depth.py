@@ -1,11 +1,12 @@
-"""A trained policy that sees what the depth network sees: a network of 1,290 weights weighs the law's 147 velocities.
+"""A trained policy that sees depth, the target's mask and its own motion: a network of 1,290 weights weighs the law's 147 velocities.
 
-    python recipes/training/follow_choice.py recipes/policies/follow_choice.onnx WORK
+    python recipes/training/follow_depth.py recipes/policies/follow_depth.onnx WORK
 
 Tracking, memory of points and drawing of what hides the target are those of follow_law.py. What the law does with them by hand, a network
 learns: from 34 numbers of each velocity (how hidden the target would be, what is in the way, distance, effort) it tells how good the velocity
 is. It learns from the law's own flights the mean of what the law and the expert do there. Needs `pip install . numpy onnx onnxruntime`; uses one
-processor, so that the same seed gives the same file on the same processor. WORK, a new folder, gets labels, and may be removed.
+processor, so that the same seed gives the same file on the same processor. WORK, a new folder, gets labels and the networks of the first eighth,
+quarter and half of the labels of each suite, for a learning curve (`eighths_1.onnx` and so on); it may be removed.
 """
 
 import argparse
@@ -90,7 +91,7 @@ def seen_by(graph, names):
 def model(graph, gives):
     told = lambda shapes: [helper.make_tensor_value_info(name, TensorProto.FLOAT, shape) for name, shape in shapes.items()]
     gives = {**gives, **{f"{name}_out": shape for name, shape in STATES.items()}}
-    made = helper.make_graph(graph.nodes, "follow_choice", told(SEEN | STATES), told(gives), graph.constants)
+    made = helper.make_graph(graph.nodes, "follow_depth", told(SEEN | STATES), told(gives), graph.constants)
     return helper.make_model(made, opset_imports=[helper.make_opsetid("", 17)], ir_version=8, producer_name="cosfly")
 
 
@@ -206,9 +207,12 @@ def main():
         tools.cosfly([given.cosfly, *recipe, *policy, *keep, "--out", version, *store], stdout=subprocess.DEVNULL)
         parts.append(examples(version, eyes))
         print(f"{suite}: {len(parts[-1][0])} labels, {time.time() - began:.0f} s", flush=True)
-    weights = fitted(*(np.concatenate(part) for part in zip(*parts)), given.seed)
     given.out.parent.mkdir(parents=True, exist_ok=True)
-    write(weights, given.out)
+    for eighths, out in [(8, given.out), *((count, given.work / f"eighths_{count}.onnx") for count in (4, 2, 1))]:
+        first = [[of[: len(of) * eighths // 8] for of in part] for part in parts]
+        found, wanted = (np.concatenate(part) for part in zip(*first))
+        write(fitted(found, wanted, given.seed), out)
+        print(f"{out}: from {len(found)} labels, {time.time() - began:.0f} s", flush=True)
 
 
 if __name__ == "__main__":
