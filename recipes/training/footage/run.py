@@ -25,7 +25,7 @@ PARTS = {
     "optics": ["stages.frames.optics.preset=ideal"],
     "weathers": ['stages.frames.weathers=["ClearNoon"]'],
     "parked": ["stages.street.vehicles.parked_share=0.0"],
-    "crowd": ["stages.street.people.count=0"],
+    "crowd": ["stages.street.people.count=0", 'stages.street.follow.kinds=["car"]'],
     "look": ["stages.frames.look=simple"],
     "lenses": ["stages.frames.fov_range_deg=[79.9, 80.0]"],
     "heights": ["stages.low.view={}"],
@@ -40,12 +40,13 @@ def arguments() -> argparse.Namespace:
     sequence = {"nargs": "+", "action": "append", "default": [], "metavar": "PATH"}
     add("--people", **sequence, help="FRAMES BOXES [FIRST]: a sequence that follows a person; FIRST is the picture of the first line, from 1")
     add("--others", **sequence, help="the same for a sequence that follows anything else: for the tracker alone")
-    add("--without", choices=sorted(PARTS), help="leave a part of the recipe out, to see what it is good for")
+    add("--without", choices=sorted(PARTS), help="leave a part of the recipe out, to see what it is good for; judged beside OUT/all, where that is")
     add("--set", action="append", default=[], metavar="KEY=VALUE", help="change the recipe, as in `cosfly run`")
     add("--steps", type=tools.counted, default=4000, help="steps of training of both networks at once (default: 4000)")
     add("--alone", type=tools.counted, default=2000, help="steps in which the detector then learns alone (default: 2000; together about 40 minutes of one core)")
     add("--per-frame", type=tools.counted, default=3, help="bodies around which squares are cut from each picture (default: 3)")
     add("--every", type=tools.counted, default=4, help="score the detector on every n-th picture of a sequence (default: 4)")
+    add("--briefly", action="store_true", help="score the detector in squares alone: not in whole frames, and no tracker")
     add("--seed", type=int, default=1)
     add("--threads", type=tools.counted, default=1, help="threads of torch: other numbers give other last bits (default: 1)")
     options = parser.parse_args()
@@ -96,6 +97,7 @@ def main() -> None:
     import torch
 
     torch.set_num_threads(options.threads)
+    import networks
     import scores
 
     people, others = ([scores.Sequence(*it) for it in of] for of in (options.people, options.others))
@@ -103,7 +105,14 @@ def main() -> None:
     out.mkdir(parents=True, exist_ok=True)
     dataset = data(options, out)
     trained = networks_of(options, out, dataset)
-    report = scores.report(trained["detector"], trained["tracker"], dataset, people, others, options.every)
+    detectors, whole = [trained["detector"]], options.out / "all"
+    if options.without and (whole / "detector.pt").exists():
+        # On the same pictures as the whole recipe, and beside its network.
+        dataset = whole / "data"
+        detectors.append(networks.Detector())
+        detectors[1].load_state_dict(torch.load(whole / "detector.pt")["weights"])
+        detectors[1].eval()
+    report = scores.report(detectors, trained["tracker"], dataset, people, others, options.every, options.briefly)
     (out / "report.md").write_text(report)
     print(f"\n{report}\n{out / 'report.md'}")
 

@@ -94,8 +94,21 @@ def inside(box: np.ndarray, side: float, picture: Image.Image) -> tuple:
 
 
 def in_squares(
-    detector: Detector, pictures: List[Image.Image], boxes: np.ndarray, stretches: np.ndarray, others: Optional[List[np.ndarray]] = None
+    detectors: List[Detector], pictures: List[Image.Image], boxes: np.ndarray, stretches: np.ndarray, others: Optional[List[np.ndarray]] = None
 ) -> Dict[str, Interval]:
+    """Scores of the first detector, and what it has more than the second in the same squares."""
+    scored, *whole = (measures(detector, pictures, boxes, others) for detector in detectors)
+    found = {name: interval(of, stretches) for name, of in scored.items()}
+    for of_whole in whole:
+        for name in ("best box right", f"recall at {FALSE_A_SQUARE} false boxes a square"):
+            more = lambda chosen: scored[name](chosen) - of_whole[name](chosen)
+            found[f"{name}, more than with the whole recipe"] = interval(more, stretches)
+    return found
+
+
+def measures(
+    detector: Detector, pictures: List[Image.Image], boxes: np.ndarray, others: Optional[List[np.ndarray]]
+) -> Dict[str, Callable[[np.ndarray], float]]:
     """A square of five heights around each box, scaled to 160 pixels: whether the person is found, and what else is that is none of the others."""
     rows = []
     for picture, box, people in zip(pictures, boxes, others or [np.zeros((0, 4))] * len(boxes)):
@@ -118,10 +131,10 @@ def in_squares(
         return float((sure[chosen] > (every[allowed] if len(every) > allowed else 0.0)).mean())
 
     return {
-        "best box right": interval(lambda chosen: best[chosen].mean(), stretches),
-        f"recall at {SURE}": interval(lambda chosen: (sure[chosen] > SURE).mean(), stretches),
-        f"false boxes a square at {SURE}": interval(lambda chosen: wrong[chosen].mean(), stretches),
-        f"recall at {FALSE_A_SQUARE} false boxes a square": interval(at_few, stretches),
+        "best box right": lambda chosen: best[chosen].mean(),
+        f"recall at {SURE}": lambda chosen: (sure[chosen] > SURE).mean(),
+        f"false boxes a square at {SURE}": lambda chosen: wrong[chosen].mean(),
+        f"recall at {FALSE_A_SQUARE} false boxes a square": at_few,
     }
 
 
@@ -181,8 +194,11 @@ def followed(sequence: Sequence, begin: Begin) -> Dict[str, Interval]:
     return {"success": interval(lambda it: success[it].mean(), stretches), "precision": interval(lambda it: near[it].mean(), stretches)}
 
 
-def report(detector: Detector, tracker: Tracker, dataset: Path, people: List[Sequence], others: List[Sequence], every: int) -> str:
-    sets = {"own pictures, a town not seen in training": own_pictures(detector, dataset)}
+def report(
+    detectors: List[Detector], tracker: Tracker, dataset: Path, people: List[Sequence], others: List[Sequence], every: int, briefly: bool
+) -> str:
+    """Scores of the first detector, beside the second where there is one, and of the tracker."""
+    sets = {"own pictures, a town not seen in training": own_pictures(detectors, dataset)}
     for sequence in people:
         numbers = [it for it in range(0, len(sequence), every) if sequence.boxes[it, 3] - sequence.boxes[it, 1] >= LEAST_PX]
         if not numbers:
@@ -190,16 +206,18 @@ def report(detector: Detector, tracker: Tracker, dataset: Path, people: List[Seq
             continue
         pictures, boxes = [sequence.picture(it) for it in numbers], sequence.boxes[numbers]
         stretches = STRETCHES * np.array(numbers) // len(sequence)
-        row = in_squares(detector, pictures, boxes, stretches)
-        found = [in_whole(detector, picture) for picture in pictures]
-        for overlap in (RIGHT, 0.5):
+        row = in_squares(detectors, pictures, boxes, stretches)
+        found = [] if briefly else [in_whole(detectors[0], picture) for picture in pictures]
+        for overlap in (RIGHT, 0.5) if found else ():
             row[f"average precision in whole frames, overlap {overlap}"] = interval(precision_of(found, boxes, overlap), stretches)
         sets[f"{sequence.name}, {len(numbers)} frames"] = row
     lines = ["# Networks trained on cosfly alone", "", "## Detector of people", ""]
     columns = list(dict.fromkeys(name for row in sets.values() for name in row))
     lines += ["| | " + " | ".join(sets) + " |", "|---" * (len(sets) + 1) + "|"]
     lines += [f"| {name} | " + " | ".join(str(row.get(name, "")) for row in sets.values()) + " |" for name in columns]
-    if people or others:
+    if briefly:
+        lines += ["", "NOT RUN: whole frames and trackers, because of `--briefly`"]
+    elif people or others:
         lines += ["", "## Trackers", "", f"| sequence | tracker | success | precision at {NEAR_PX} px |", "|---|---|---|---|"]
         all_of: Dict[str, List[Dict[str, Interval]]] = {}
         for sequence in people + others:
@@ -218,7 +236,7 @@ def report(detector: Detector, tracker: Tracker, dataset: Path, people: List[Seq
     return "\n".join([*lines, ""])
 
 
-def own_pictures(detector: Detector, dataset: Path, most: int = 200) -> Dict[str, Interval]:
+def own_pictures(detectors: List[Detector], dataset: Path, most: int = 200) -> Dict[str, Interval]:
     import cosfly
 
     judged = cosfly.Dataset(dataset, split="test", channels=("rgb",))
@@ -232,4 +250,4 @@ def own_pictures(detector: Detector, dataset: Path, most: int = 200) -> Dict[str
             boxes.append(target.box)
             flights.append(sample["trajectory_id"])
             others.append(np.array([it.box for it in of_frame if it.body != "target" and it.is_person]).reshape(-1, 4))
-    return in_squares(detector, pictures, np.array(boxes), np.array(flights), others) if pictures else {}
+    return in_squares(detectors, pictures, np.array(boxes), np.array(flights), others) if pictures else {}
