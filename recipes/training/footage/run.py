@@ -29,6 +29,7 @@ PARTS = {
     "look": ["stages.frames.look=simple"],
     "lenses": ["stages.frames.fov_range_deg=[79.9, 80.0]"],
     "heights": ["stages.low.view={}"],
+    "nothing": [],  # with another `--seed`: what chance in training does
 }
 
 
