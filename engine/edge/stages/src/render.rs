@@ -70,7 +70,7 @@ impl StageKind for Render {
         let bare = RenderConfig { models: vec![], season: None, mesh: None, splats: None, ..config.clone() };
         let nearby = nearby::part(&bare, canonical(&bare, parameters::canonical(&bare)), items.clone());
         let properties = StageProperties {
-            version: 38,
+            version: 39,
             parameters: canonical(&config, parameters::joined_canonical(&config, &encoding, pictures::ENCODING)),
             sources,
             inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],

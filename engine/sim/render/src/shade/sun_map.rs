@@ -5,7 +5,8 @@
 
 use super::sun_tiles::{Sun, Tile, TilePlace};
 use super::sunlight::{
-    LEAVES, PACKED_ROWS, SAMPLES, SOLID, SUMMARY_SIDE, TILE, Texels, WINDOW_TILES, add_sample, measure_tile, pack_tile,
+    LEAVES, PACKED_ROWS, SAMPLES, SOLID, SUMMARY_SIDE, Samples, TILE, Texels, WINDOW_TILES, add_sample, measure_tile,
+    pack_tile,
 };
 use crate::scene::Scene;
 use crate::scene_mesh::SceneMesh;
@@ -22,13 +23,13 @@ use std::sync::Arc;
 const LEAST_HALF_WIDTH_TEXELS: f64 = 0.25;
 /// Places of samples from a texel's middle, texels: each has a column and a row of its own.
 const SAMPLES_AT: [[f64; 2]; SAMPLES] = [[-0.375, -0.125], [-0.125, 0.375], [0.125, -0.375], [0.375, 0.125]];
+/// Samples of a texel that differ by more in height belong to two surfaces, texels.
+const GAP_TEXELS: f64 = 4.0;
 
 /// Draws tiles; one for each renderer.
 pub(super) struct Painter {
     canvas: VisibilityBuffer,
-    /// Sums of the heights of a texel's samples, and how many there are, see [`add_sample`].
-    sums: Vec<f32>,
-    seen: Vec<u32>,
+    samples: Samples,
     packed: Box<[u32]>,
     /// Tiles from a first to before an end, by column and row.
     parts: Vec<(usize, [i32; 2], [i32; 2])>,
@@ -39,8 +40,11 @@ impl Painter {
         let side = WINDOW_TILES as usize * TILE + 1;
         Self {
             canvas: VisibilityBuffer::new(side, side),
-            sums: vec![0.0; side * side],
-            seen: vec![0; side * side],
+            samples: Samples {
+                sums: vec![0.0; side * side],
+                seen: vec![0; side * side],
+                floors: vec![0.0; side * side],
+            },
             packed: vec![0; PACKED_ROWS * TILE].into_boxed_slice(),
             parts: Vec::new(),
         }
@@ -78,12 +82,12 @@ impl Painter {
     fn tile(&mut self, level: Level, [column, row]: [usize; 2], steps_per_m: f32) -> Option<Tile> {
         let (width, _) = self.canvas.size();
         let from = row * width + column;
-        let (sums, seen) = (&self.sums[from..], &self.seen[from..]);
-        if !pack_tile(level, sums, seen, width, steps_per_m, &mut self.packed) {
+        let Samples { sums, seen, floors } = &self.samples;
+        if !pack_tile(level, &sums[from..], &seen[from..], width, steps_per_m, &mut self.packed) {
             return None;
         }
         let mut summary = [0; SUMMARY_SIDE * SUMMARY_SIDE];
-        measure_tile(level, &self.packed, &mut summary);
+        measure_tile(level, &self.packed, &floors[from..], width, steps_per_m, &mut summary);
         Some(Tile { texels: Arc::new(Texels::of(&self.packed)), summary: Arc::new(summary) })
     }
 
@@ -98,9 +102,11 @@ impl Painter {
         let (width, _) = self.canvas.size();
         let lines = (0..rows).map(|row| row * width..row * width + columns);
         for line in lines.clone() {
-            self.sums[line.clone()].fill(0.0);
-            self.seen[line].fill(0);
+            self.samples.sums[line.clone()].fill(0.0);
+            self.samples.seen[line.clone()].fill(0);
+            self.samples.floors[line].fill(f32::MAX);
         }
+        let gap_m = (GAP_TEXELS * frame.texels_m.x) as f32;
         for at in SAMPLES_AT {
             let frame = ShadowFrame { corner: frame.corner + DVec2::from_array(at), ..*frame };
             if !self.draw_part(scene, sun, &frame, SeenRegion { first: [0; 2], end: [columns, rows] }) {
@@ -108,7 +114,9 @@ impl Painter {
             }
             for line in lines.clone() {
                 let (heights, classes) = (&self.canvas.inverse_depth[line.clone()], &self.canvas.face[line.clone()]);
-                add_sample(level, heights, classes, &mut self.sums[line.clone()], &mut self.seen[line]);
+                let Samples { sums, seen, floors } = &mut self.samples;
+                let rows = (&mut sums[line.clone()], &mut seen[line.clone()], &mut floors[line]);
+                add_sample(level, heights, classes, gap_m, rows);
             }
         }
         true
@@ -235,31 +243,47 @@ pub(super) fn draw(
 
 #[cfg(test)]
 mod tests {
+    use super::super::sunlight::LOWEST_M;
     use super::*;
     use cosfly_domain::{Obstacle, OrientedBox, Town};
     use cosfly_frames::{Seed, real};
     use cosfly_materials::vector::Vec3;
 
     #[test]
-    fn edges_of_shadows_at_a_slant_are_no_stairs() {
+    fn edges_of_shadows_at_a_slant_are_no_stairs_on_the_ground_and_on_a_roof() {
         let yaw_rad = -0.1;
         let (center_in_world, half_extents_m) = (DVec3::new(-26.0, 16.0, 8.0), DVec3::new(20.0, 20.0, 8.0));
-        let shape = OrientedBox { center_in_world, half_extents_m, yaw_rad };
-        let house = Obstacle { shape, kind: ObstacleKind::Building, object_id: 0, synthetic: false };
-        let town = Town { obstacles: vec![house], ..Town::default() };
-        let sun = Sun::new(Vec3::new(0.0, 0.5, 0.8).unit(), [0.0, 16.0]);
-        let mut painter = Painter::new();
-        painter.draw(Level::best(), (&Scene::new(&town, Seed([1; 32])), &sun), &mut [(0, 0, 0)], |_, _| ());
+        let building = |center_in_world, half_extents_m, yaw_rad| Obstacle {
+            shape: OrientedBox { center_in_world, half_extents_m, yaw_rad },
+            kind: ObstacleKind::Building,
+            object_id: 0,
+            synthetic: false,
+        };
+        let house = building(center_in_world, half_extents_m, yaw_rad);
+        let low = building(DVec3::new(0.0, 0.0, 4.0), DVec3::new(90.0, 90.0, 4.0), 0.0);
         // The roof's edge, whose shadow runs along the light but for its slant.
         let (sin, cos) = real::sin_cos(yaw_rad);
         let edge_at = center_in_world + 20.0 * DVec3::new(cos, sin, 0.0);
-        for (row, texels) in (0..).zip(painter.packed.chunks(TILE).take(TILE)) {
-            let share = |texel: u32| if texel == 0 { 0.0 } else { 0.25 + 0.125 * f64::from(texel & 6) };
-            let dark: f64 = texels.iter().map(|texel| share(texel & 0xffff)).sum();
-            let y = 0.1 * (f64::from(row) + 0.5) + 16.0 * 0.625;
-            let x = edge_at.x - sin / cos * (y - edge_at.y);
-            let exact = TILE as f64 + x / 0.1;
-            assert!((dark - exact).abs() < 0.2, "row {row}: {dark} texels are dark, not {exact}");
+        for (obstacles, surface_m) in [(vec![house.clone()], 0.1), (vec![low, house], 8.1)] {
+            let town = Town { obstacles, ..Town::default() };
+            let sun = Sun::new(Vec3::new(0.0, 0.5, 0.8).unit(), [0.0, 16.0]);
+            let mut painter = Painter::new();
+            let mut floors = vec![];
+            painter.draw(Level::best(), (&Scene::new(&town, Seed([1; 32])), &sun), &mut [(0, 0, 0)], |_, tile| {
+                floors.extend(tile.expect("a tile").summary.iter().map(|square| square & 0xffff));
+            });
+            let surface = ((surface_m + LOWEST_M) * 16.0) as u32;
+            for (row, texels) in (0..).zip(painter.packed.chunks(TILE).take(TILE)) {
+                let share = |texel: u32| if texel >> 3 > surface { 0.25 + 0.125 * f64::from(texel & 6) } else { 0.0 };
+                let dark: f64 = texels.iter().map(|texel| share(texel & 0xffff)).sum();
+                let y = 0.1 * (f64::from(row) + 0.5) + 16.0 * 0.625;
+                let x = edge_at.x - sin / cos * (y - edge_at.y);
+                let exact = TILE as f64 + x / 0.1;
+                let what = format!("{surface_m} m, row {row}: {dark} texels are dark, not {exact}");
+                assert!((dark - exact).abs() < 0.2, "{what}");
+            }
+            // What lies under the low roof is dark throughout, under the edge, too.
+            assert_eq!(floors.iter().any(|floor| *floor < surface - 2), surface_m < 1.0);
         }
     }
 

@@ -62,7 +62,7 @@ pub(super) struct Grain {
 }
 
 /// Texels of a tile. A number holds a texel in its low half and the one to the right in its high half: one for leaves, the number
-/// of its samples that are covered, less one, times two, and eight times the height above [`LOWEST_M`] below the reference in steps
+/// of its samples that throw its shadow, less one, times two, and eight times the height above [`LOWEST_M`] below the reference in steps
 /// of the sun. In the order of [`in_tile`].
 #[repr(align(64))]
 pub(super) struct Texels(pub(super) [u32; TILE * TILE]);
@@ -70,10 +70,13 @@ pub(super) struct Texels(pub(super) [u32; TILE * TILE]);
 pub(super) type TownMap = [Arc<Texels>; WINDOWS];
 /// Tiles of all windows.
 pub(super) const WINDOWS: usize = GRAINS * (WINDOW_TILES * WINDOW_TILES) as usize;
-/// Summary of each square of texels, and those right and below of it: the least height in the low half, 0 where leaves are, and the
-/// greatest in the high half; steps.
+/// Summary of each square of texels, and those right and below of it: the least of their floors in the low half, see [`Samples`],
+/// and the greatest height in the high half; steps.
 pub(super) type SummaryMap = [u32; GRAINS * SQUARES * SQUARES];
+pub(super) type SummaryOfTile = [u32; SUMMARY_SIDE * SUMMARY_SIDE];
 type FigureMap = [u32; FIGURE_TEXELS];
+/// Rows of the fields of [`Samples`].
+type SampleRows<'a> = (&'a mut [f32], &'a mut [u32], &'a mut [f32]);
 
 /// A power of two that holds the map.
 const FIGURE_TEXELS: usize = 1 << 14;
@@ -89,7 +92,7 @@ pub(super) const MOST_STEPS: f32 = 8191.0;
 const FIGURE_STEPS: [f32; 2] = [65535.0, 32.0];
 /// Samples of a texel.
 pub(super) const SAMPLES: usize = 4;
-/// Bits of a town's texel below its height, and what they hold where all samples are covered, and not by leaves.
+/// Bits of a town's texel below its height, and those of them that hold the number of samples.
 const BELOW_HEIGHT: u32 = 3;
 const FULL: u32 = 6;
 
@@ -102,13 +105,31 @@ fn in_steps(height_m: f32, most_steps: f32, steps_per_m: f32) -> u32 {
     steps.to_bits() & 0xffff
 }
 
+/// Samples of texels: those near the highest of a texel count, for they throw the shadow whose edge is seen on the next surface.
+pub(super) struct Samples {
+    /// Sums of the heights of those that count.
+    pub(super) sums: Vec<f32>,
+    /// How many they are, and eight where one of them is leaves.
+    pub(super) seen: Vec<u32>,
+    /// The least height of all, 0 where something is open or leaves: everything below is dark.
+    pub(super) floors: Vec<f32>,
+}
+
 simd_kernel! {
-    /// Adds a sample of each texel of a row to the sums of their heights and to `seen`: number of samples, and eight for leaves.
-    pub(super) fn add_sample(heights: &[f32], classes: &[u32], sums: &mut [f32], seen: &mut [u32]) {
-        for (((height_m, class), sum), seen) in heights.iter().zip(classes).zip(sums).zip(seen) {
+    /// Adds a sample of each texel of a row; `gap_m` lies between heights of two surfaces, of which the lower one does not count:
+    /// the shadow's edge on a roof is as exact as on the ground.
+    pub(super) fn add_sample(heights: &[f32], classes: &[u32], gap_m: f32, rows: SampleRows<'_>) {
+        let (sums, seen, floors) = rows;
+        let rest = sums.iter_mut().zip(seen).zip(floors);
+        for ((height_m, class), ((sum, seen), floor)) in heights.iter().zip(classes).zip(rest) {
             let is_covered = u32::from(*height_m > 0.0);
-            *sum += *height_m;
-            *seen = seen.wrapping_add(is_covered) | (is_covered & u32::from(*class == LEAVES)) << 3;
+            let is_leaves = u32::from(*class == LEAVES);
+            let above_m = *height_m - *sum / most((*seen & 7) as i32 as f32, 1.0);
+            let is_higher = 0u32.wrapping_sub(is_covered & u32::from(above_m > gap_m));
+            let counts = is_covered & u32::from(above_m >= -gap_m);
+            *sum = f32::from_bits(sum.to_bits() & !is_higher) + if counts == 1 { *height_m } else { 0.0 };
+            *seen = (*seen & !is_higher).wrapping_add(counts) | (counts & is_leaves) << 3;
+            *floor = least(*floor, if is_covered & !is_leaves == 1 { *height_m } else { 0.0 });
         }
     }
 }
@@ -171,29 +192,26 @@ impl Texels {
 }
 
 simd_kernel! {
-    /// Measures the squares of a packed tile.
-    pub(super) fn measure_tile(packed: &[u32], summary: &mut [u32; SUMMARY_SIDE * SUMMARY_SIDE]) {
+    /// Measures the squares of a packed tile, whose floors lie in rows `width` apart.
+    pub(super) fn measure_tile(packed: &[u32], floors: &[f32], width: usize, steps_per_m: f32, summary: &mut SummaryOfTile) {
         const TEXELS: usize = 1 << IN_SQUARE;
         for row in 0..SUMMARY_SIDE {
             for column in 0..SUMMARY_SIDE {
-                let (mut least, mut greatest) = ([u32::MAX; TEXELS], [0u32; TEXELS]);
-                for below in 0..=TEXELS {
-                    let texel = (row * TEXELS + below) * TILE + column * TEXELS;
-                    let Some(texels) = packed.get(texel..).and_then(|rest| rest.first_chunk::<TEXELS>()) else {
-                        continue;
-                    };
+                let (mut lowest, mut greatest) = ([f32::MAX; TEXELS + 1], [0u32; TEXELS]);
+                for below in row * TEXELS..=(row + 1) * TEXELS {
+                    let texels = packed.get(below * TILE + column * TEXELS..).and_then(|rest| rest.first_chunk::<TEXELS>());
+                    let floors = floors.get(below * width + column * TEXELS..).and_then(|rest| rest.first_chunk());
+                    let (Some(texels), Some(floors)) = (texels, floors) else { continue };
                     for k in 0..TEXELS {
-                        for half in [texels[k] & 0xffff, texels[k] >> 16] {
-                            let height = half >> BELOW_HEIGHT;
-                            let low = if half & ((1 << BELOW_HEIGHT) - 1) == FULL { height } else { 0 };
-                            least[k] = least[k].min(low);
-                            greatest[k] = greatest[k].max(height);
-                        }
+                        greatest[k] = greatest[k].max(texels[k] & 0xffff).max(texels[k] >> 16);
+                    }
+                    for (lowest, floor) in lowest.iter_mut().zip::<&[f32; TEXELS + 1]>(floors) {
+                        *lowest = least(*lowest, *floor);
                     }
                 }
-                let least = least.into_iter().fold(MOST_STEPS as u32, u32::min);
-                let greatest = greatest.into_iter().fold(0, u32::max);
-                summary[row * SUMMARY_SIDE + column] = least | greatest << 16;
+                let lowest = lowest.into_iter().fold(f32::MAX, least);
+                let greatest = greatest.into_iter().fold(0, u32::max) >> BELOW_HEIGHT;
+                summary[row * SUMMARY_SIDE + column] = in_steps(lowest, MOST_STEPS, steps_per_m) | greatest << 16;
             }
         }
     }
