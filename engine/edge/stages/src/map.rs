@@ -56,7 +56,7 @@ impl StageKind for Map {
     fn build(&self, given: Value) -> Result<Vec<StagePart>, ParameterError> {
         let (config, files) = checked(given)?;
         let properties = StageProperties {
-            version: 25,
+            version: 26,
             parameters: canonical(&config)?,
             sources: sources(files),
             inputs: self.ports(),

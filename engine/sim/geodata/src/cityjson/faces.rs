@@ -32,6 +32,12 @@ impl Face {
         self.rings.iter().flatten().copied()
     }
 
+    /// The face with all corners at one height.
+    pub(super) fn levelled(&self, height_m: f64) -> Self {
+        let ring = |ring: &Vec<DVec3>| ring.iter().map(|corner| corner.with_z(height_m)).collect();
+        Self { rings: self.rings.iter().map(ring).collect() }
+    }
+
     pub(super) fn highest_m(&self) -> f64 {
         self.corners().map(|corner| corner.z).fold(f64::NEG_INFINITY, f64::max)
     }

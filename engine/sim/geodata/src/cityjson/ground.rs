@@ -10,6 +10,11 @@ use cosfly_town::polygons::{triangulated, twice_area_m2};
 
 /// Ground is at most this steep, vertical part of the unit normal.
 const STEEPEST_NORMAL: f64 = 0.3;
+/// Roads, paths and what is below plants are at most this steep: what rises more steeply by more than a kerb is a spike of
+/// triangulated heights.
+const STEEPEST_EVEN_NORMAL: f64 = 0.7;
+/// Highest kerb, metres.
+const KERB_M: f64 = 0.3;
 /// Steepest ground to walk on.
 const STEEPEST_WALK_NORMAL: f64 = 0.8;
 /// Smallest walkable piece, square metres.
@@ -40,6 +45,8 @@ impl Ground {
             return Ok(false);
         }
         let kind = kind.filter(|_| level_share >= STEEPEST_WALK_NORMAL);
+        let is_way = matches!(label, SemanticLabel::Roads | SemanticLabel::SideWalks);
+        let face = if is_way { &without_spike(face) } else { face };
         for (outline, triangles) in pieces(face) {
             self.triangle_count += triangles.len();
             if self.triangle_count > MOST_TRIANGLES {
@@ -55,6 +62,13 @@ impl Ground {
         }
         Ok(true)
     }
+}
+
+/// The face, laid flat where it is a spike; walls, which are no ground, as they are.
+pub(super) fn without_spike(face: &Face) -> Face {
+    let low_m = face.lowest_m();
+    let is_steep = (STEEPEST_NORMAL..STEEPEST_EVEN_NORMAL).contains(&face.level_share());
+    if is_steep && face.highest_m() - low_m > KERB_M { face.levelled(low_m) } else { face.clone() }
 }
 
 /// The face as simple polygons with their triangles: itself where it is one, else quads that tile it.
@@ -75,4 +89,24 @@ fn pieces(face: &Face) -> Vec<(Vec<DVec3>, Vec<[u32; 3]>)> {
     let on_face = |corner: DVec2| corner.extend(face.height_m(corner));
     let quads = plan.trapezoids().into_iter().filter(|quad| twice_area_m2(quad).abs() > 1e-6);
     quads.map(|quad| (quad.map(on_face).to_vec(), vec![[0, 1, 2], [0, 2, 3]])).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spikes_of_ways_lie_flat_and_banks_and_kerbs_stay() {
+        let heights_m = |label, high_m: f64| {
+            let corners = [[0.0, 0.0, 0.1], [1.0, 0.0, 0.1], [0.5, 0.4 * high_m, high_m + 0.1]];
+            let mut ground = Ground::default();
+            let face = Face { rings: vec![corners.map(DVec3::from_array).to_vec()] };
+            assert!(ground.add(&face, label, None).expect("ground"));
+            let meshes = ground.meshes.finish();
+            meshes.iter().flat_map(|mesh| &mesh.vertices_in_world).map(|corner| corner.z).fold(0.0, f64::max)
+        };
+        assert_eq!(heights_m(SemanticLabel::SideWalks, 0.8), 0.1);
+        assert_eq!(heights_m(SemanticLabel::SideWalks, 0.25), 0.35);
+        assert_eq!(heights_m(SemanticLabel::Terrain, 0.8), 0.9);
+    }
 }

@@ -3,7 +3,7 @@
 use super::document::{Attributes, CityObject, Document, documents};
 use super::doubts::Doubts;
 use super::faces::Face;
-use super::ground::Ground;
+use super::ground::{Ground, without_spike};
 use super::layers::{BUILDING, Steps, layered, pieces};
 use super::plants;
 use super::shapes::{Shape, Space};
@@ -253,7 +253,7 @@ impl Parts {
     fn add_plants(&mut self, shape: &Shape, object_id: u32) -> Result<(), MapError> {
         let Some((low, _)) = shape.bounds() else { return Ok(()) };
         for face in shape.faces.iter().filter(|face| face.highest_m() <= low.z + plants::GROUND_RISE_M) {
-            self.ground.add(face, cosfly_domain::SemanticLabel::Terrain, None)?;
+            self.ground.add(&without_spike(face), cosfly_domain::SemanticLabel::Terrain, None)?;
         }
         let stand = plants::stand(&shape.faces, low.z);
         self.tally.stands += usize::from(!stand.is_empty());
