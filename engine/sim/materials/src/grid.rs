@@ -43,6 +43,8 @@ pub struct LightGrid {
     rows: usize,
     cells: Vec<GridSample>,
     tables: Box<GridTables>,
+    /// Whether lamps light a place at night.
+    has_lamps: bool,
 }
 
 /// The cells as kernels read them: sky shares of a cell, the one to the right, below, and below right, in bytes; then
@@ -134,6 +136,7 @@ impl LightGrid {
             rows,
             cells: vec![GridSample { ground_m: 0.0, sky: 1.0, lamps: 0.0, wall_m: FAR_FROM_WALLS_M }; columns * rows],
             tables: fixed_size(vec![]),
+            has_lamps: false,
         };
         grid.measure_ground(clusters, boxes);
         grid.measure_sky(boxes);
@@ -142,8 +145,14 @@ impl LightGrid {
             true => grid.add_lamps(boxes),
             false => grid.add_untold_lamps(boxes, ground),
         }
+        grid.has_lamps = grid.cells.iter().any(|cell| cell.lamps > 0.0);
         grid.pack();
         grid
+    }
+
+    /// Whether lamps light a place at night.
+    pub fn has_lamps(&self) -> bool {
+        self.has_lamps
     }
 
     /// Packs the cells into tables for the shading kernels.

@@ -195,6 +195,7 @@ fn streets_of_a_town_whose_map_has_no_lamps_are_not_dark_at_night() {
     };
     put(ObstacleKind::Building, 90, DVec3::new(35.0, 0.0, 4.0), DVec3::new(10.0, 40.0, 4.0));
     let unlit = town.clone();
+    let roads_alone = trees_on(SemanticLabel::Roads);
     // One lamp far away: the map tells of lamps, and there is none here.
     town.obstacles.push(Obstacle {
         shape: OrientedBox {
@@ -208,7 +209,7 @@ fn streets_of_a_town_whose_map_has_no_lamps_are_not_dark_at_night() {
     });
     let night = cosfly_materials::presets::preset("ClearNight").expect("a preset");
     let pose = Pose { position_in_world: DVec3::new(-20.0, 0.0, 30.0), pitch_rad: -0.8, yaw_rad: 0.0, roll_rad: 0.0 };
-    let [without, elsewhere] = [&unlit, &town].map(|town| {
+    let [without, elsewhere, alone] = [&unlit, &town, &roads_alone].map(|town| {
         let mut renderer = Renderer::new(camera(320, 200));
         let setup = FrameSetup { pose, weather: &night, target: None, others: &[] };
         let images = &renderer.render(&Scene::new(town, Seed([1; 32])), &setup).images;
@@ -218,6 +219,10 @@ fn streets_of_a_town_whose_map_has_no_lamps_are_not_dark_at_night() {
         f64::from(light[light.len() * 9 / 10])
     });
     assert!(without > 1.3 * elsewhere, "{without} in a town without lamps, {elsewhere} far from the lamp of another");
+    assert!(
+        alone > 1.25 * elsewhere && alone > 40.0,
+        "{alone} where no house is, {elsewhere} far from the lamp of another"
+    );
 }
 
 #[test]

@@ -40,6 +40,9 @@ pub(crate) struct Seen<'a> {
     pub albedo: &'a [[f32; 3]],
 }
 
+/// Exposure at night of a town without any lamp, of that of others.
+const UNLIT: f32 = 1.8;
+
 impl Setting {
     /// A clear noon over the world's origin, for one image size.
     pub fn new(screen: &Screen) -> Self {
@@ -67,7 +70,9 @@ impl Setting {
         drawn: &VisibilityBuffer,
     ) {
         self.light = Light::new(setup.weather);
-        self.light.exposure *= self.exposure;
+        // A camera gathers light for longer at night where no lamp is.
+        let waits = if scene.grid.has_lamps() { 1.0 } else { 1.0 + (UNLIT - 1.0) * self.light.night };
+        self.light.exposure *= self.exposure * waits;
         self.view = View::new(&self.screen, eye);
         self.haze =
             self.light.horizon * (0.8 - 0.2 * self.light.rain) + self.light.zenith * 0.2 + self.light.lamp * 0.02;
