@@ -7,7 +7,7 @@ use super::lanes::{
     Block, EMPTY_ROW, FOUR, PendingFours, PixelLane, Shared, StageRow, WIDE, get, groups, set, three_of, write_row,
     write_three,
 };
-use super::pattern::{NoiseTexture, Noises, draw, hash, least, lerp, most, one_if, share, smoothstep, unit};
+use super::pattern::{NoiseTexture, Noises, draw, floor_int, hash, least, lerp, most, one_if, share, smoothstep, unit};
 use super::surface::Look;
 use super::vector::Vec3;
 use crate::parts::SceneBox;
@@ -199,6 +199,61 @@ simd_kernel! {
             write_row(&mut crowns.shift, at, look.shift);
             write_row(&mut crowns.turn[0], at, look.turn[0]);
             write_row(&mut crowns.turn[1], at, look.turn[1]);
+        }
+    }
+}
+
+/// Half the width of a tree of a wood, for half its height, and at least and at most, metres.
+const TREE_HALF: [f32; 3] = [1.25, 2.5, 4.5];
+/// Trees of a wood reach this far into each other, of half their width.
+const INTO_NEXT: f32 = 1.12;
+/// How far edges between them sway, of half the width of a tree, and texels of clumps per metre for that.
+const SWAY_SHARE: f32 = 2.4;
+const WAVES: f32 = 8.0;
+
+simd_kernel! {
+    /// Parts crowns that are much wider than high, where trees stand so close that a map takes them for one: each four, whose middle is
+    /// on the boxes, shows a tree of its own from here on.
+    pub fn part_woods(crowns: &mut Crowns, shared: &[Shared], noise: &NoiseTexture) {
+        for (group, shared) in shared.iter().enumerate() {
+            let at = group.wrapping_mul(WIDE);
+            for k in 0..WIDE {
+                let [middle, half] = [&crowns.middle, &crowns.half].map(|rows| three_of(rows, group, k));
+                let tree_m = least(most(TREE_HALF[0] * half.z, TREE_HALF[1]), TREE_HALF[2]);
+                let trees = |half_m: f32| most(floor_int(0.8 * half_m / tree_m + 0.5) as f32, 1.0);
+                // Hedges and rows of shrubs stay.
+                let is_wood = one_if(least(half.x, half.y) > 2.0);
+                let (across, along) = (lerp(1.0, trees(half.x), is_wood), lerp(1.0, trees(half.y), is_wood));
+                let own = half * Vec3::new(1.0 / across, 1.0 / along, 1.0);
+                let place = get(&shared.middle, k);
+                let sway = [0.0, 90.0].map(|aside| noise.clumps(place.x * WAVES + aside, place.y * WAVES - aside, 4.0) - 0.5);
+                let from = place - middle + half + Vec3::new(sway[0], sway[1], 0.0) * (SWAY_SHARE * tree_m);
+                let row = least(most(floor_int(0.5 * from.y / own.y) as f32, 0.0), along - 1.0);
+                // Every other row stands aside by half a tree.
+                let aside_m = (row - 2.0 * floor_int(0.5 * row) as f32 - 0.5) * one_if(across > 1.0) * own.x;
+                let column = least(most(floor_int(0.5 * (from.x - aside_m) / own.x) as f32, 0.0), across - 1.0);
+                let parted = one_if(across * along > 1.0);
+                let tree = Vec3::new((2.0 * column + 1.0) * own.x + aside_m, (2.0 * row + 1.0) * own.y, half.z) - half;
+                let half = half.lerp(own * Vec3::new(INTO_NEXT, INTO_NEXT, 1.0), parted);
+                let (leaves, shift) = (three_of(&crowns.tint, group, k), PendingFours::lane(&crowns.shift, group)[k]);
+                let drawn = unit(hash(shift.to_bits(), (row * 64.0 + column) as u32));
+                // Half a turn at most, without angles.
+                let (way, tint) = (2.0 * drawn - 1.0, lerp(1.0, 0.80 + 0.4 * drawn, parted));
+                let turn = [1.0 - way * way, 2.0 * way].map(|part| part / (1.0 + way * way));
+                let at = at.wrapping_add(k);
+                for (rows, value) in [
+                    (&mut crowns.middle, middle + tree * parted),
+                    (&mut crowns.half, half),
+                    (&mut crowns.shrink, Vec3::new(1.0 / most(half.x, 0.1), 1.0 / most(half.y, 0.1), 1.0 / most(half.z, 0.1))),
+                    (&mut crowns.tint, leaves * tint),
+                ] {
+                    (rows[0][at], rows[1][at], rows[2][at]) = (value.x, value.y, value.z);
+                }
+                crowns.shift[at] += 37.0 * drawn * parted;
+                for (row, turn) in crowns.turn.iter_mut().zip(turn) {
+                    row[at] = lerp(row[at], turn, parted);
+                }
+            }
         }
     }
 }

@@ -310,8 +310,8 @@ impl Worker {
         let staged = Staged { stage, cloths, crowns, kerbs, colours, albedo };
         let blocks = (&mut shared[..groups], &mut blocks[..FOUR * groups]);
         match setting.look {
-            PictureLook::Full => run_kernels(setting, seen, material, &staged, blocks, near),
-            PictureLook::Simple => run_simple_kernels(setting, material, &staged, blocks),
+            PictureLook::Full => run_kernels(setting, seen, material, staged, blocks, near),
+            PictureLook::Simple => run_simple_kernels(setting, material, staged, blocks),
         }
         put_back(setting.level, &self.pieces, &self.blocks[..FOUR * groups], &mut self.developed, &mut self.picture);
         self.pieces.clear();

@@ -16,7 +16,7 @@ use cosfly_materials::ground::ground;
 use cosfly_materials::kerbs::{Kerbs, stones};
 use cosfly_materials::lane_wear::worn;
 use cosfly_materials::lanes::{Block, FOUR, LANES, PendingFours, Shared, StageRow, WIDE, set};
-use cosfly_materials::leaves::{Crowns, even_leaves, leaves, swell};
+use cosfly_materials::leaves::{Crowns, even_leaves, leaves, part_woods, swell};
 use cosfly_materials::paving::pave;
 use cosfly_materials::thing_paint::things;
 use cosfly_materials::vector::Vec3;
@@ -28,7 +28,7 @@ const OFF_CROWN_M: f32 = 1.5;
 pub(super) struct Staged<'a> {
     pub stage: &'a PendingFours,
     pub cloths: &'a Cloths,
-    pub crowns: &'a Crowns,
+    pub crowns: &'a mut Crowns,
     pub kerbs: &'a Kerbs,
     /// Colours of even surfaces in the simple look.
     pub colours: &'a [StageRow; 3],
@@ -51,7 +51,7 @@ pub(super) fn run_kernels(
     setting: &Setting,
     seen: &Seen<'_>,
     material: &Material,
-    &Staged { stage, cloths, crowns, kerbs, albedo, .. }: &Staged<'_>,
+    Staged { stage, cloths, crowns, kerbs, albedo, .. }: Staged<'_>,
     (shared, blocks): (&mut [Shared], &mut [Block]),
     near: &[u32],
 ) {
@@ -65,6 +65,7 @@ pub(super) fn run_kernels(
     place(level, shared, stage, &setting.view, light);
     points(level, shared, blocks, stage, &setting.view);
     if let Material::Leaves = material {
+        part_woods(level, crowns, shared, noise);
         swell(level, shared, crowns, setting.view.position, setting.view.pixel());
     }
     open(level, shared, grid.tables(), &grid.frame(), light.night > 0.0);
@@ -147,7 +148,7 @@ pub(super) fn run_kernels(
 pub(super) fn run_simple_kernels(
     setting: &Setting,
     material: &Material,
-    &Staged { stage, crowns, colours, albedo, .. }: &Staged<'_>,
+    Staged { stage, crowns, colours, albedo, .. }: Staged<'_>,
     (shared, blocks): (&mut [Shared], &mut [Block]),
 ) {
     let (level, light, tone) = (setting.level, &setting.light, &setting.tone);

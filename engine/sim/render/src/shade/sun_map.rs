@@ -24,7 +24,7 @@ const LEAST_HALF_WIDTH_TEXELS: f64 = 0.25;
 /// Places of samples from a texel's middle, texels: each has a column and a row of its own.
 const SAMPLES_AT: [[f64; 2]; SAMPLES] = [[-0.375, -0.125], [-0.125, 0.375], [0.125, -0.375], [0.375, 0.125]];
 /// Samples of a texel that differ by more in height belong to two surfaces, texels.
-const GAP_TEXELS: f64 = 4.0;
+const GAP_TEXELS: f64 = 1.5;
 
 /// Draws tiles; one for each renderer.
 pub(super) struct Painter {
