@@ -206,9 +206,9 @@ simd_kernel! {
 /// Half the width of a tree of a wood, for half its height, and at least and at most, metres.
 const TREE_HALF: [f32; 3] = [1.25, 2.5, 4.5];
 /// Trees of a wood reach this far into each other, of half their width.
-const INTO_NEXT: f32 = 1.12;
+const INTO_NEXT: f32 = 1.3;
 /// How far edges between them sway, of half the width of a tree, and texels of clumps per metre for that.
-const SWAY_SHARE: f32 = 2.4;
+const SWAY_SHARE: f32 = 1.4;
 const WAVES: f32 = 8.0;
 
 simd_kernel! {
@@ -556,6 +556,38 @@ fn facing(place: Vec3, normal: Vec3) -> (f32, f32) {
 mod tests {
     use super::*;
     use crate::pattern::noise_texture;
+
+    #[test]
+    fn places_of_a_wood_show_a_tree_near_them_and_single_crowns_stay() {
+        let noise = noise_texture(5);
+        let trees = |half: Vec3| -> Vec<[f32; 4]> {
+            let middle = Vec3::new(40.0, -30.0, 6.0);
+            let shrink = half.map(|half| 1.0 / half);
+            let look =
+                Leaves { middle, half, shrink, tint: Vec3::splat(0.1), through: 1.0, shift: 3.0, turn: [0.8, 0.6] };
+            let mut crowns = Box::new(Crowns::EMPTY);
+            put_crown(cosfly_frames::simd::Level::best(), &mut crowns, 0, WIDE, &look);
+            let mut shared = Shared::EMPTY;
+            let across = |k: usize| half * Vec3::new((k % 4) as f32 / 1.6 - 0.94, (k / 4) as f32 / 1.6 - 0.94, 1.0);
+            (0..WIDE).for_each(|k| set(&mut shared.middle, k, middle + across(k)));
+            part_woods(cosfly_frames::simd::Level::best(), &mut crowns, &[shared], &noise);
+            let tree = |k: usize| {
+                let (tree, own) = (three_of(&crowns.middle, 0, k), three_of(&crowns.half, 0, k));
+                let away = tree - (middle + across(k));
+                [tree.x, tree.y, own.x.max(own.y), away.x.abs().max(away.y.abs())]
+            };
+            (0..WIDE).map(tree).collect()
+        };
+        for [x, y, half_m, _] in trees(Vec3::new(3.0, 2.5, 2.5)) {
+            assert_eq!([x, y, half_m], [40.0, -30.0, 3.0]);
+        }
+        let wood = trees(Vec3::new(14.0, 11.0, 3.5));
+        assert!(wood.iter().all(|[_, _, half_m, away_m]| *half_m < 7.0 && *away_m < 8.0), "{wood:?}");
+        let mut places: Vec<[u32; 2]> = wood.iter().map(|[x, y, ..]| [x.to_bits(), y.to_bits()]).collect();
+        places.sort_unstable();
+        places.dedup();
+        assert!(places.len() > 4, "{wood:?}");
+    }
 
     #[test]
     fn leaves_have_no_streaks_on_any_side() {
