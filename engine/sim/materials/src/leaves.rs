@@ -582,7 +582,7 @@ mod tests {
             assert_eq!([x, y, half_m], [40.0, -30.0, 3.0]);
         }
         let wood = trees(Vec3::new(14.0, 11.0, 3.5));
-        assert!(wood.iter().all(|[_, _, half_m, away_m]| *half_m < 7.0 && *away_m < 8.0), "{wood:?}");
+        assert!(wood.iter().all(|[_, _, half_m, away_m]| *half_m < 7.5 && *away_m < 7.5), "{wood:?}");
         let mut places: Vec<[u32; 2]> = wood.iter().map(|[x, y, ..]| [x.to_bits(), y.to_bits()]).collect();
         places.sort_unstable();
         places.dedup();
