@@ -84,7 +84,8 @@ pub(super) fn run_kernels(
         if let Material::Leaves = material {
             leaves(level, shared, blocks, crowns, setting.view.position, light.to_sun * OFF_CROWN_M, noise);
         }
-        setting.shadows.sunlight(level, blocks, !is_bent, noise, near);
+        let in_map = !matches!(material, Material::Ground(_) | Material::Cloth | Material::Coach(_));
+        setting.shadows.sunlight(level, blocks, [!is_bent, in_map], noise, near);
     }
     match material {
         // The sky and leaves are done; even surfaces are of the simple look.

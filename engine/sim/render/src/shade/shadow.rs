@@ -9,7 +9,9 @@ use crate::shade::body_shadow::{HEIGHTS, Heights, draw_person};
 use crate::shade::sun_map::draw;
 use crate::shade::sun_tiles::Sun;
 use crate::shade::sun_window::Window;
-use crate::shade::sunlight::{FIGURE_SIDE, FigureShadow, Places, SOLID, figure_shadow, pack_figure, town_sunlight};
+use crate::shade::sunlight::{
+    COVERED, FIGURE_SIDE, FigureShadow, Places, SOLID, figure_shadow, pack_figure, town_sunlight,
+};
 use cosfly_domain::TARGET_INSTANCE;
 use cosfly_figures::{BodyShape, FigureParts, FigureTriangle};
 use cosfly_frames::simd::Level;
@@ -119,9 +121,17 @@ impl Shadows {
 
     /// Fills in which share of the sun's light reaches each pixel's place. On flat surfaces, the pixels between the ends
     /// of a four that are lit alike are lit like them. Of people, only those numbered in `near` count.
-    pub fn sunlight(&self, level: Level, blocks: &mut [Block], flat: bool, noise: &NoiseTexture, near: &[u32]) {
+    pub fn sunlight(
+        &self,
+        level: Level,
+        blocks: &mut [Block],
+        [flat, in_map]: [bool; 2],
+        noise: &NoiseTexture,
+        near: &[u32],
+    ) {
+        let places = Places { hidden_by: if in_map { 0 } else { COVERED }, ..self.places };
         let Window { map, summary, .. } = &self.window;
-        town_sunlight(level, blocks, map, summary, &self.places, flat, noise);
+        town_sunlight(level, blocks, map, summary, &places, flat, noise);
         for figure in near.iter().filter_map(|person| self.figures.get(*person as usize)) {
             if let Some(rows) = &figure.rows {
                 figure_shadow(level, blocks, &figure.map, figure.side, self.places.base_m, rows);

@@ -83,7 +83,7 @@ impl Painter {
         let (width, _) = self.canvas.size();
         let from = row * width + column;
         let Samples { sums, seen, floors } = &self.samples;
-        if !pack_tile(level, &sums[from..], &seen[from..], width, steps_per_m, &mut self.packed) {
+        if !pack_tile(level, &sums[from..], &seen[from..], &floors[from..], width, steps_per_m, &mut self.packed) {
             return None;
         }
         let mut summary = [0; SUMMARY_SIDE * SUMMARY_SIDE];
@@ -274,7 +274,7 @@ mod tests {
             });
             let surface = ((surface_m + LOWEST_M) * 16.0) as u32;
             for (row, texels) in (0..).zip(painter.packed.chunks(TILE).take(TILE)) {
-                let share = |texel: u32| if texel >> 3 > surface { 0.25 + 0.125 * f64::from(texel & 6) } else { 0.0 };
+                let share = |texel: u32| if texel >> 4 > surface { 0.25 + 0.125 * f64::from(texel & 6) } else { 0.0 };
                 let dark: f64 = texels.iter().map(|texel| share(texel & 0xffff)).sum();
                 let y = 0.1 * (f64::from(row) + 0.5) + 16.0 * 0.625;
                 let x = edge_at.x - sin / cos * (y - edge_at.y);

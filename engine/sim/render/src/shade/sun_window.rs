@@ -228,6 +228,7 @@ fn places(parts: &[Part; GRAINS], season: Season, steps_per_m: f32) -> Places {
         texel_m: TEXEL_M as f32,
         corner_m: (frame.corner * frame.texels_m).as_vec2().to_array(),
         grains,
+        hidden_by: 0,
         gaps: cosfly_materials::season::row(season).gaps,
         used,
     }

@@ -45,6 +45,8 @@ pub(super) struct Places {
     /// The corner over the sheared ground, metres.
     pub(super) corner_m: [f32; 2],
     pub(super) grains: [Grain; GRAINS],
+    /// [`COVERED`] for places on surfaces that are not in the map, else 0.
+    pub(super) hidden_by: u32,
     /// Gaps in crowns, see [`Season::gaps`].
     pub(super) gaps: [f32; 3],
     /// Sizes of texels that this frame reads, from the finest.
@@ -87,14 +89,16 @@ const IN_SQUARE: u32 = 2;
 /// Nothing lower than this below the reference casts a shadow.
 pub(super) const LOWEST_M: f64 = 16.0;
 /// Most steps of a town's heights.
-pub(super) const MOST_STEPS: f32 = 8191.0;
+pub(super) const MOST_STEPS: f32 = 4095.0;
 /// Most steps of a figure's heights, and steps in a metre.
 const FIGURE_STEPS: [f32; 2] = [65535.0, 32.0];
 /// Samples of a texel.
 pub(super) const SAMPLES: usize = 4;
 /// Bits of a town's texel below its height, and those of them that hold the number of samples.
-const BELOW_HEIGHT: u32 = 3;
+const BELOW_HEIGHT: u32 = 4;
 const FULL: u32 = 6;
+/// The bit that says that the other samples of a texel are covered, too: what is no surface of the map lies in shadow.
+pub(super) const COVERED: u32 = 8;
 
 /// Height in steps above the lowest.
 #[inline(always)]
@@ -152,21 +156,23 @@ simd_kernel! {
 simd_kernel! {
     /// Packs a tile from rows `width` apart, with the first row and column of the tiles below and to the right; whether
     /// anything stands there. Heights are the means of the samples: that of a flat face is right in the texel's middle.
-    pub(super) fn pack_tile(sums: &[f32], seen: &[u32], width: usize, steps_per_m: f32, packed: &mut [u32]) -> bool {
+    pub(super) fn pack_tile(sums: &[f32], seen: &[u32], floors: &[f32], width: usize, steps_per_m: f32, packed: &mut [u32]) -> bool {
         let mut anything = 0u32;
         for (row, packed) in packed.chunks_exact_mut(TILE).enumerate().take(PACKED_ROWS) {
             let from = row.wrapping_mul(width);
-            let (Some(sums), Some(seen)) = (
+            let (Some(sums), Some(seen), Some(floors)) = (
                 sums.get(from..).and_then(|rest| rest.first_chunk::<PACKED_ROWS>()),
                 seen.get(from..).and_then(|rest| rest.first_chunk::<PACKED_ROWS>()),
+                floors.get(from..).and_then(|rest| rest.first_chunk::<PACKED_ROWS>()),
             ) else {
                 return false;
             };
             let mut single = [0u32; PACKED_ROWS];
-            for ((single, sum), seen) in single.iter_mut().zip(sums).zip(seen) {
+            for (((single, sum), seen), floor) in single.iter_mut().zip(sums).zip(seen).zip(floors) {
                 let covered = seen & 7;
                 let steps = in_steps(*sum / most(covered as i32 as f32, 1.0), MOST_STEPS, steps_per_m);
-                let texel = steps << BELOW_HEIGHT | covered.wrapping_sub(1) << 1 | seen >> 3;
+                let others = COVERED * u32::from(*floor > 0.0);
+                let texel = steps << BELOW_HEIGHT | others | covered.wrapping_sub(1) << 1 | seen >> 3;
                 *single = texel & 0u32.wrapping_sub(u32::from(covered > 0));
             }
             for (k, packed) in packed.iter_mut().enumerate().take(TILE) {
@@ -362,6 +368,7 @@ fn lit_through_leaves(
         let higher = floor_int(spots.height_m[k] * places.steps_per_m).wrapping_add(1) << BELOW_HEIGHT;
         let dark = between(found[0][k], found[1][k], [fx, fy], |texel| {
             let covered = (texel & FULL) as i32 as f32 * (0.5 / SAMPLES as f32) + 1.0 / SAMPLES as f32;
+            let covered = if texel & places.hidden_by == 0 { covered } else { 1.0 };
             if texel as i32 >= higher { covered } else { 0.0 }
         });
         let either = found[0][k] | found[1][k];
