@@ -83,7 +83,7 @@ impl Painter {
         let (width, _) = self.canvas.size();
         let from = row * width + column;
         let Samples { sums, seen, floors } = &self.samples;
-        if !pack_tile(level, &sums[from..], &seen[from..], &floors[from..], width, steps_per_m, &mut self.packed) {
+        if !pack_tile(level, &sums[from..], &seen[from..], width, steps_per_m, &mut self.packed) {
             return None;
         }
         let mut summary = [0; SUMMARY_SIDE * SUMMARY_SIDE];

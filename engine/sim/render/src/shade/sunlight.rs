@@ -113,7 +113,7 @@ fn in_steps(height_m: f32, most_steps: f32, steps_per_m: f32) -> u32 {
 pub(super) struct Samples {
     /// Sums of the heights of those that count.
     pub(super) sums: Vec<f32>,
-    /// How many they are, and eight where one of them is leaves.
+    /// How many they are, eight where one of them is leaves, and 16 for each that is covered at all.
     pub(super) seen: Vec<u32>,
     /// The least height of all, 0 where something is open or leaves: everything below is dark.
     pub(super) floors: Vec<f32>,
@@ -132,7 +132,7 @@ simd_kernel! {
             let is_higher = 0u32.wrapping_sub(is_covered & u32::from(above_m > gap_m));
             let counts = is_covered & u32::from(above_m >= -gap_m);
             *sum = f32::from_bits(sum.to_bits() & !is_higher) + if counts == 1 { *height_m } else { 0.0 };
-            *seen = (*seen & !is_higher).wrapping_add(counts) | (counts & is_leaves) << 3;
+            *seen = (*seen & (!is_higher | 0xf0)).wrapping_add(counts | is_covered << 4) | (counts & is_leaves) << 3;
             *floor = least(*floor, if is_covered & !is_leaves == 1 { *height_m } else { 0.0 });
         }
     }
@@ -156,23 +156,22 @@ simd_kernel! {
 simd_kernel! {
     /// Packs a tile from rows `width` apart, with the first row and column of the tiles below and to the right; whether
     /// anything stands there. Heights are the means of the samples: that of a flat face is right in the texel's middle.
-    pub(super) fn pack_tile(sums: &[f32], seen: &[u32], floors: &[f32], width: usize, steps_per_m: f32, packed: &mut [u32]) -> bool {
+    pub(super) fn pack_tile(sums: &[f32], seen: &[u32], width: usize, steps_per_m: f32, packed: &mut [u32]) -> bool {
         let mut anything = 0u32;
         for (row, packed) in packed.chunks_exact_mut(TILE).enumerate().take(PACKED_ROWS) {
             let from = row.wrapping_mul(width);
-            let (Some(sums), Some(seen), Some(floors)) = (
+            let (Some(sums), Some(seen)) = (
                 sums.get(from..).and_then(|rest| rest.first_chunk::<PACKED_ROWS>()),
                 seen.get(from..).and_then(|rest| rest.first_chunk::<PACKED_ROWS>()),
-                floors.get(from..).and_then(|rest| rest.first_chunk::<PACKED_ROWS>()),
             ) else {
                 return false;
             };
             let mut single = [0u32; PACKED_ROWS];
-            for (((single, sum), seen), floor) in single.iter_mut().zip(sums).zip(seen).zip(floors) {
+            for ((single, sum), seen) in single.iter_mut().zip(sums).zip(seen) {
                 let covered = seen & 7;
                 let steps = in_steps(*sum / most(covered as i32 as f32, 1.0), MOST_STEPS, steps_per_m);
-                let others = COVERED * u32::from(*floor > 0.0);
-                let texel = steps << BELOW_HEIGHT | others | covered.wrapping_sub(1) << 1 | seen >> 3;
+                let others = COVERED * (seen >> 6);
+                let texel = steps << BELOW_HEIGHT | others | covered.wrapping_sub(1) << 1 | (seen >> 3) & 1;
                 *single = texel & 0u32.wrapping_sub(u32::from(covered > 0));
             }
             for (k, packed) in packed.iter_mut().enumerate().take(TILE) {
