@@ -114,8 +114,7 @@ impl Shadows {
         let whole = SeenRegion { first: [0; 2], end: [side; 2] };
         let to_sun = DVec3::new(f64::from(to_sun.x), f64::from(to_sun.y), f64::from(to_sun.z));
         for triangle in triangles.iter().filter(|triangle| triangle.normal_in_world.dot(to_sun) > 1e-6) {
-            let normal = triangle.normal_in_world;
-            draw(&mut self.figure, (frame, whole), to_sun, normal, &triangle.corners_in_world, SOLID);
+            draw(&mut self.figure, (frame, whole), to_sun, triangle.normal_in_world, &triangle.corners_in_world, SOLID);
         }
     }
 

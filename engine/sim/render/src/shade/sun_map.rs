@@ -8,8 +8,9 @@ use super::sunlight::{
     LEAVES, PACKED_ROWS, SAMPLES, SOLID, SUMMARY_SIDE, Samples, TILE, Texels, WINDOW_TILES, add_sample, measure_tile,
     pack_tile,
 };
+use crate::props::Prop;
 use crate::scene::Scene;
-use crate::scene_mesh::SceneMesh;
+use crate::scene_mesh::{MeshCluster, SceneMesh};
 use cosfly_domain::ObstacleKind;
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3};
@@ -154,45 +155,30 @@ impl Painter {
 
     /// Triangles of a lit mesh throw shadows in the place of boxes and models, those of cut-outs as leaves do.
     fn draw_mesh(&mut self, own: &SceneMesh, frame: &ShadowFrame, to_sun: DVec3, part: SeenRegion) -> bool {
-        let mut anything = false;
-        for cluster in &own.clusters {
-            if frame.misses(&part, cluster.center_in_world, cluster.half_bounds_m) {
-                continue;
-            }
-            anything = true;
+        let is_seen = |it: &&MeshCluster| !frame.misses(&part, it.center_in_world, it.half_bounds_m);
+        for cluster in own.clusters.iter().filter(is_seen) {
             for triangle in &own.mesh.triangles[cluster.triangles.clone()] {
                 let corners = triangle.corners();
                 let [a, b, c] = corners;
                 let normal = (b - a).cross(c - a).normalize_or_zero();
-                let facing = normal.dot(to_sun);
-                if facing.abs() > 1e-6 {
-                    let is_cut = own.mesh.materials[triangle.material as usize].least_alpha.is_some();
-                    let class = if is_cut { LEAVES } else { SOLID };
-                    draw(&mut self.canvas, (frame, part), to_sun, normal * facing.signum(), &corners, class);
-                }
+                let is_cut = own.mesh.materials[triangle.material as usize].least_alpha.is_some();
+                draw(&mut self.canvas, (frame, part), to_sun, normal, &corners, if is_cut { LEAVES } else { SOLID });
             }
         }
-        anything
+        own.clusters.iter().any(|it| is_seen(&it))
     }
 
     /// Both sides of a model's triangles throw shadows.
     fn draw_props(&mut self, scene: &Scene, frame: &ShadowFrame, to_sun: DVec3, part: SeenRegion) -> bool {
-        let mut anything = false;
-        for prop in &scene.props.props {
-            if frame.misses(&part, prop.center_in_world, prop.half_bounds_m) {
-                continue;
-            }
-            anything = true;
+        let is_seen = |it: &&Prop| !frame.misses(&part, it.center_in_world, it.half_bounds_m);
+        for prop in scene.props.props.iter().filter(is_seen) {
             let class = if prop.is_leafy { LEAVES } else { SOLID };
             for triangle in &scene.props.triangles[prop.triangles.clone()] {
-                let facing = triangle.normal_in_world.dot(to_sun);
-                if facing.abs() > 1e-6 {
-                    let normal = triangle.normal_in_world * facing.signum();
-                    draw(&mut self.canvas, (frame, part), to_sun, normal, &triangle.corners_in_world, class);
-                }
+                let (normal, corners) = (triangle.normal_in_world, &triangle.corners_in_world);
+                draw(&mut self.canvas, (frame, part), to_sun, normal, corners, class);
             }
         }
-        anything
+        scene.props.props.iter().any(|it| is_seen(&it))
     }
 }
 
@@ -217,7 +203,8 @@ fn join(places: &mut [TilePlace], parts: &mut Vec<(usize, [i32; 2], [i32; 2])>) 
     }
 }
 
-/// Draws a face that the sun shines on, where a part of the map needs it: its height is affine over the sheared ground.
+/// Draws a face, of which the sun may see either side, where a part of the map needs it: its height is affine over the sheared
+/// ground. A face along the light throws no shadow.
 pub(super) fn draw(
     map: &mut VisibilityBuffer,
     (frame, part): (&ShadowFrame, SeenRegion),
@@ -232,6 +219,9 @@ pub(super) fn draw(
     }
     let points = &points[..corners.len().min(4)];
     let Some(rows) = map.rows_within(points, part.first, part.end) else { return };
+    if normal.dot(to_sun).abs() <= 1e-6 {
+        return;
+    }
     // Along the map's x axis the face's point moves by (1, 0, 0) + slope * sun / sun.z with no way along the normal.
     let facing = normal.dot(to_sun) / to_sun.z;
     let slope = -normal.truncate() / facing;
